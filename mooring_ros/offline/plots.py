@@ -142,12 +142,10 @@ def line_shapes_figure(shapes, depth):
     margin = 0.04 * max(high[0] - low[0], high[1] - low[1], 1.0)
     low, high = low - margin, high + margin
     width, breadth, height = high - low
-    # Both views share the x axis and the scale, so the figure's height follows from the scene, within reason.
-    drawn = _WIDTH - 2.2
-    side_height = min(max(drawn * height / width, 0.9), 5.0)
-    plan_height = min(max(drawn * breadth / width, 0.9), 6.0)
-    fig = _figure(side_height + plan_height + 1.5)
-    side, plan = fig.subplots(2, 1, sharex=False, height_ratios=(side_height, plan_height))
+    # Both views share one scale, the largest that fits the page.
+    scale = min((_WIDTH - 2.2) / width, 5.0 / height, 5.5 / breadth)
+    fig = _figure(max(scale * (height + breadth), 1.8) + 1.5, max(scale * width + 2.2, 4.5))
+    side, plan = fig.subplots(2, 1, height_ratios=(max(scale * height, 0.9), max(scale * breadth, 0.9)))
     cmap = colormaps["viridis"]
     side.axhline(0.0, color=_WATER, linewidth=1.2, zorder=0)
     side.axhspan(low[2] - height, -depth, color=_BED, alpha=0.35, linewidth=0, zorder=0)
@@ -180,8 +178,8 @@ def force_unit(values):
     return 1.0, "N"
 
 
-def _figure(height):
-    return Figure(figsize=(_WIDTH, height), layout="constrained")
+def _figure(height, width=_WIDTH):
+    return Figure(figsize=(width, height), layout="constrained")
 
 
 def _curve(axis, x, y, colour, name=None, width=1.2):

@@ -26,7 +26,7 @@ th, td { padding: .3rem .75rem; text-align: left; border-bottom: 1px solid #e4e9
 th { border-bottom: 2px solid #aab6c3; font-weight: 600; vertical-align: bottom; }
 th.number, td.number { text-align: right; white-space: nowrap; }
 figure { margin: 1rem 0 1.5rem; break-inside: avoid; }
-figure svg { width: 100%; height: auto; display: block; }
+figure svg { max-width: 100%; height: auto; display: block; }
 figcaption { color: #51606f; font-size: .875rem; margin-top: .25rem; }
 caption { color: #51606f; font-size: .875rem; text-align: left; caption-side: bottom; padding-top: .35rem; }
 @media print { body { max-width: none; padding: 0; font-size: 11pt; } h2 { break-after: avoid; } tr { break-inside: avoid; } }
