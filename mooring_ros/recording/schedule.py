@@ -1,0 +1,67 @@
+"""The step schedule: what was done to the mooring core, in order, so that it can be done again bit for bit.
+
+One record for each thing done, 15 doubles: kind, t, pose (x, y, z, qx, qy, qz, qw), twist (vx, vy, vz, wx, wy, wz).
+The doubles are exactly those that were passed to `Mooring`. A release carries the line's index in the third
+place and zeros after it; a settle has no twist. Published on `<node>/steps` as std_msgs/Float64MultiArray; the stamp
+of the input is the message's log and publish time.
+"""
+from dataclasses import dataclass
+
+import numpy as np
+
+SETTLE, STEP, RELEASE = 0, 1, 2
+KINDS = ('settle', 'step', 'release')
+LENGTH = 15
+TOPIC_SUFFIX = '/steps'
+TYPE_NAME = 'std_msgs/msg/Float64MultiArray'
+
+
+@dataclass(frozen=True)
+class Action:
+    """One thing done to the core. time: s; pose (7,), twist (6,): world frame, None for a release; line: index."""
+
+    kind: int
+    time: float
+    pose: np.ndarray | None = None
+    twist: np.ndarray | None = None
+    line: int | None = None
+
+
+def encode_settle(time, pose):
+    """15 floats for `settle(pose, time)`. pose (7,)."""
+    return _pack(SETTLE, time, pose, np.zeros(6))
+
+
+def encode_step(time, pose, twist):
+    """15 floats for `step(time, pose, twist)`. pose (7,), twist (6,), world frame."""
+    return _pack(STEP, time, pose, twist)
+
+
+def encode_release(time, line):
+    """15 floats for the release of the line with index `line` at `time`."""
+    return [float(RELEASE), float(time), float(line)] + [0.0] * (LENGTH - 3)
+
+
+def _pack(kind, time, pose, twist):
+    pose, twist = np.asarray(pose, dtype=float), np.asarray(twist, dtype=float)
+    if pose.shape != (7,) or twist.shape != (6,):
+        raise ValueError(f'pose has shape {pose.shape} and twist {twist.shape}: expected (7,) and (6,)')
+    return [float(kind), float(time), *pose.tolist(), *twist.tolist()]
+
+
+def decode(data):
+    """The Action of 15 numbers. Raises ValueError when they are no schedule record."""
+    data = np.array(data, dtype=float)
+    if data.shape != (LENGTH,):
+        raise ValueError(f'step schedule record has {data.size} numbers: expected {LENGTH}')
+    if not np.all(np.isfinite(data)):
+        raise ValueError('step schedule record has a number that is not finite')
+    kind, time = data[0], float(data[1])
+    if kind == RELEASE:
+        line = data[2]
+        if line < 0 or line != int(line) or np.any(data[3:]):
+            raise ValueError(f'step schedule: release of line {line:g}: expected an index and zeros after it')
+        return Action(RELEASE, time, line=int(line))
+    if kind not in (SETTLE, STEP):
+        raise ValueError(f'step schedule record of kind {kind:g}: expected 0 (settle), 1 (step) or 2 (release)')
+    return Action(int(kind), time, pose=data[2:9], twist=data[9:15])
