@@ -112,6 +112,7 @@ _option(Fate("TmaxIC", _number("s"), _STATICS), "ICTmax")
 _option(Fate("CdScaleIC", _number(), _STATICS), "ICDfac")
 _option(Fate("threshIC", _number(), _STATICS), "ICthresh")
 _option(Fate("ICgenDynamic", _flag, _STATICS))
+_option(Fate("fileIC", _word, _STATICS))
 for _name in ("writeLog", "writeUnits", "disableOutput", "disableOutTime", "OutSwitch", "Echo"):
     _option(Fate(_name, _flag, _OUTPUT))
 _option(Fate("dtOut", _number("s"), _OUTPUT))
