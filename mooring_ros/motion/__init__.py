@@ -1,0 +1,8 @@
+"""Platform motion: frames and conventions, the gate that keeps bad input out, twist from poses. numpy only, no ROS."""
+
+from .convention_check import ConventionCheck, Verdict
+from .frames import Adapter, twist_axes
+from .gate import Gate, Limits, Motion, Sample
+from .velocity import OnlineTwist, twist_from_poses
+
+__all__ = ["Adapter", "ConventionCheck", "Gate", "Limits", "Motion", "OnlineTwist", "Sample", "Verdict", "twist_axes", "twist_from_poses"]
