@@ -55,10 +55,10 @@ def parse_scene(text: str, path: str | os.PathLike = "scene") -> Scene:
 
 def _read_text(file: str) -> str:
     try:
-        if os.path.isdir(file):
-            raise SceneError(file, 0, f"is a directory, {_EXPECTED}")
-        if not os.path.isfile(file):
+        if not os.path.exists(file):
             raise SceneError(file, 0, f"there is no such file, {_EXPECTED}")
+        if not os.path.isfile(file):  # reading a pipe or a device could last for ever
+            raise SceneError(file, 0, f"is {'a directory' if os.path.isdir(file) else 'no regular file'}, {_EXPECTED}")
         if os.path.getsize(file) > _LARGEST_FILE:
             raise SceneError(file, 0, f"is larger than {_LARGEST_FILE // 2**20} MiB, {_EXPECTED}")
         content = Path(file).read_bytes()

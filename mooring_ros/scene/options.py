@@ -44,7 +44,7 @@ def _one_of(*choices: str):
     return read
 
 
-def _off(what: str):
+def _off(what: str, expected: str = "0"):
     """Accepts only values that switch the effect off."""
 
     def read(row: Row, name: str) -> float:
@@ -52,7 +52,7 @@ def _off(what: str):
         value = parse_number(word)
         if value == 0.0 or word.lower() in ("", "-", "none", "null", "false", "f", "unused"):
             return 0.0
-        raise row.error(f"{name} is '{row.words[0]}', expected 0: {what} not built yet")
+        raise row.error(f"{name} is '{row.words[0]}', expected {expected}: {what} not built yet")
 
     return read
 
@@ -94,7 +94,7 @@ _option(Fate("mu_kA", _off(_FRICTION)))
 _option(Fate("WaveKin", _off(_WAVES)))
 _option(Fate("Currents", _off(_WAVES)))
 _option(Fate("WaterKin", _off(_WAVES)))
-_option(Fate("SeafloorFile", _off("bathymetry from a file is")), "SeafloorPath")
+_option(Fate("SeafloorFile", _off("bathymetry from a file is", "no file")), "SeafloorPath")
 
 _option(Fate("FrictionModel", _one_of("saturated", "stick"), _NO_FRICTION))
 _option(Fate("mc", _number(at_least=0), _NO_FRICTION), "StatDynFricScale")
