@@ -32,7 +32,7 @@ class Limits:
 
     input_age: s by the receiving clock. jump: m, jump_angle: rad: how far the new pose may lie from where the last pose and the
     twists lead. jump_speed: m/s, jump_rate: rad/s: by how much a twist may change from sample to sample, and how fast such a
-    difference of pose may arise.
+    difference of pose may arise. gap: s, the longest time between two samples that is still one motion.
     """
 
     input_age: float = 0.0
@@ -40,6 +40,7 @@ class Limits:
     jump_angle: float = 0.5
     jump_speed: float = 10.0
     jump_rate: float = 2.0
+    gap: float = 60.0
 
 
 class Sample(NamedTuple):
@@ -142,6 +143,8 @@ class Gate:
     def _check_jump(self, last, motion, given):
         limits = self.limits
         dt = (motion.stamp - last.stamp) * 1e-9 * self.adapter.time_factor
+        if limits.gap and dt > limits.gap:
+            return JUMP, f"stamp is {dt:.6g} s after the last, limit {limits.gap:g} s"
         twist = [0.5 * (a + b) for a, b in zip(last.twist, motion.twist)] if given else last.twist
         off = math.hypot(*(b - a - dt * v for a, b, v in zip(last.pose, motion.pose, twist[:3])))
         turn = rotation.turn_between(last.pose[3:], motion.pose[3:])
