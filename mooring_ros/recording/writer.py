@@ -21,7 +21,7 @@ COMPRESSIONS = {'zstd': CompressionType.ZSTD, 'lz4': CompressionType.LZ4, 'none'
 MESSAGE_OVERHEAD = 200              # bytes that a queued message takes beside its data
 POLL = 0.02                         # s, how often the thread looks at its queue
 RETRY = 0.5                         # s between two tries on a disk that refuses
-YIELD_EVERY = 4                     # messages between two offers of the interpreter to other threads
+YIELD_EVERY = 8                     # messages between two offers of the interpreter to other threads
 LATEST = 2**63 - 1
 
 
@@ -62,7 +62,8 @@ class RecordingWriter:
         self._given_up = 0                  # lost by the thread
         self._unwritten = 0                 # in the MCAP writer, not yet on the disk
         self._queue = collections.deque()
-        self._queued_bytes = 0
+        self._bytes_in = 0                  # counted by the callers, under the lock
+        self._bytes_out = 0                 # counted by the thread alone, so that no caller ever waits for it
         self._queue_limit = queue_limit_bytes
         self._lock = threading.Lock()
         self._stop = threading.Event()
@@ -103,6 +104,7 @@ class RecordingWriter:
     def declare(self, topic, type_name, qos=Qos()):
         """Make a topic known before its first message, with the quality of service it is offered with.
 
+        Takes some ms for a new type, which the first `write` would take otherwise.
         Raises RecordingError for an unknown type, or another type than before.
         """
         known = self._types.get(topic)
@@ -127,10 +129,10 @@ class RecordingWriter:
         data = bytes(cdr_bytes)
         size = len(data) + MESSAGE_OVERHEAD
         with self._lock:
-            if self._closed or self._queued_bytes + size > self._queue_limit:
+            if self._closed or self._bytes_in - self._bytes_out + size > self._queue_limit:
                 self._dropped += 1
                 return
-            self._queued_bytes += size
+            self._bytes_in += size
             self._queue.append((topic, data, log_time, publish_time))
 
     def close(self, timeout=None):
@@ -184,8 +186,7 @@ class RecordingWriter:
         """Move the queue into the MCAP writer; stops, and returns False, when the disk refuses a full chunk."""
         for number in range(len(self._queue)):
             topic, data, log_time, publish_time = self._queue.popleft()
-            with self._lock:
-                self._queued_bytes -= len(data) + MESSAGE_OVERHEAD
+            self._bytes_out += len(data) + MESSAGE_OVERHEAD
             self._add(topic, data, log_time, publish_time)
             if self._sink.pending and not self._commit():
                 return False

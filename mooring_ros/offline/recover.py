@@ -1,0 +1,35 @@
+"""`mooring recover`: a recording that was cut off, readable by ordinary readers again."""
+
+import sys
+
+from .console import print_json, reading
+
+
+def add_arguments(parser):
+    parser.add_argument("file", metavar="FILE", help="recording: an MCAP file or a bag folder")
+    parser.add_argument("-o", "--output", metavar="OUT", required=True,
+                        help="new recording: NAME.mcap for a single file, any other name for a bag folder; must not exist")
+    parser.add_argument("--json", action="store_true", help="one JSON object on standard output, nothing else")
+
+
+def run(args):
+    from mooring_ros.recording.recover import recover
+
+    with reading(args.file):
+        found = recover(args.file, args.output)
+    for remark in found.cut + found.damage:
+        print(remark, file=sys.stderr)
+    if args.json:
+        print_json({"output": found.path, "messages": found.messages, "topics": found.topics, "attachments": found.attachments,
+                    "duration": _duration(found), "copied": found.copied, "cut": found.cut, "damage": found.damage})
+    elif found.copied:
+        print(f"{args.file} is whole: {found.path} is a copy of it, {found.messages} messages")
+    else:
+        print(f"{found.path}: {found.messages} messages on {len(found.topics)} topics, {_duration(found):.3f} s, "
+              f"{found.attachments} attachments")
+    return 0
+
+
+def _duration(found):
+    """s from the first to the last message."""
+    return (found.end - found.start) * 1e-9 if found.messages else 0.0
