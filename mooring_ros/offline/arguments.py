@@ -1,0 +1,84 @@
+"""Options that several commands share, and their checks."""
+
+import argparse
+import math
+
+import numpy as np
+
+from .console import reading
+
+FIDELITIES = ("linear", "quasi_static", "dynamic")
+SOLVERS = ("explicit", "implicit", "auto")
+
+
+def add_model_arguments(parser):
+    """--fidelity, --solver, --dt, --segments: how the scene is computed. Left out, the scene decides."""
+    parser.add_argument("--fidelity", choices=FIDELITIES, help="how much physics (default: chosen from the scene)")
+    parser.add_argument("--solver", choices=SOLVERS, help="how the dynamics are stepped (default: auto)")
+    parser.add_argument("--dt", type=positive, metavar="S", help="time step in s (default: the largest stable one, with a margin)")
+    parser.add_argument("--segments", type=count, metavar="N", help="segments of every line (default: as in the scene)")
+
+
+def positive(text):
+    """A positive, finite number; for argparse."""
+    value = _number(text)
+    if not value > 0.0:
+        raise argparse.ArgumentTypeError(f"{text!r}: expected a positive number")
+    return value
+
+
+def count(text):
+    """A whole number of at least 1; for argparse."""
+    try:
+        value = int(text)
+    except ValueError:
+        value = 0
+    if value < 1:
+        raise argparse.ArgumentTypeError(f"{text!r}: expected a whole number of at least 1")
+    return value
+
+
+def pose(text):
+    """X,Y,Z,ROLL,PITCH,YAW in m and degrees about the fixed axes, as a pose (7,); for argparse."""
+    parts = text.split(",")
+    if len(parts) != 6:
+        raise argparse.ArgumentTypeError(f"{text!r}: expected six numbers X,Y,Z,ROLL,PITCH,YAW (m, degrees), found {len(parts)}")
+    numbers = [_number(part) for part in parts]
+    return np.concatenate([numbers[:3], quaternion_from_degrees(*numbers[3:])])
+
+
+def quaternion_from_degrees(roll, pitch, yaw):
+    """Unit quaternion (4,) x, y, z, w of R = Rz(yaw) Ry(pitch) Rx(roll), angles in degrees."""
+    (cr, sr), (cp, sp), (cy, sy) = (_half_angle(angle) for angle in (roll, pitch, yaw))
+    return np.array(
+        [
+            cy * cp * sr - sy * sp * cr,
+            cy * sp * cr + sy * cp * sr,
+            sy * cp * cr - cy * sp * sr,
+            cy * cp * cr + sy * sp * sr,
+        ]
+    )
+
+
+def load_mooring(scene, fidelity=None, solver=None, dt=None, segments=None):
+    """A Mooring for a scene (path or Scene) and options where None means the default. Raises UsageError for bad input."""
+    from mooring_ros.mooring import Mooring
+
+    chosen = {"fidelity": fidelity, "solver": solver, "dt": dt, "segments": segments}
+    with reading(scene):
+        return Mooring(scene, **{name: value for name, value in chosen.items() if value is not None})
+
+
+def _number(text):
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f"{text!r}: expected a finite number")
+    return value
+
+
+def _half_angle(degrees):
+    half = math.radians(degrees) / 2.0
+    return math.cos(half), math.sin(half)
