@@ -91,7 +91,7 @@ def lag(times, result, reference):
     """By how many seconds the result comes after the reference, from the best correlation of their overlapping parts.
 
     Looked for up to a quarter of the span either way, between samples by a parabola; None when there is no best one
-    (a constant, or a fit that is best at the end of the range). times (n,) s, increasing; values (n,).
+    (a constant, a fit that is as good everywhere, or best at the end of the range). times (n,) s, increasing; values (n,).
     """
     if _spread(result) == 0.0 or _spread(reference) == 0.0 or len(times) < 8:
         return None
@@ -102,7 +102,7 @@ def lag(times, result, reference):
     shifts = np.arange(-longest, longest + 1)
     fit = _correlation_at(shifts, later - later.mean(), earlier - earlier.mean())
     inner = np.flatnonzero((fit[1:-1] >= fit[:-2]) & (fit[1:-1] >= fit[2:])) + 1
-    if len(inner) == 0 or fit[inner].max() < fit.max() - _AS_GOOD:
+    if np.ptp(fit) < _AS_GOOD or len(inner) == 0 or fit[inner].max() < fit.max() - _AS_GOOD:
         return None
     candidates = inner[fit[inner] >= fit.max() - _AS_GOOD]
     best = candidates[np.argmin(np.abs(shifts[candidates]))]
