@@ -1,0 +1,62 @@
+"""Run benchmarks: ``python -m benchmarks [NAMES] [--quick] [-o DIR] [--docs]``."""
+
+import argparse
+import importlib
+import json
+import sys
+from pathlib import Path
+
+from . import machine, tables
+
+BENCHMARKS = {
+    "peer_moordyn": "OC4 and VolturnUS-S chains against MoorDyn: cost at 1 % error, and both codes' converged runs",
+    "kernel_cost": "ns for one node and force evaluation, against a bare vector kernel",
+    "bergdahl": "the 33 m laboratory chain: 30 measured maxima",
+    "node_latency": "the ROS 2 node: input stamp to wrench, against an empty echo node",
+}
+DOCUMENT = Path(__file__).parent.parent / "docs" / "measurements.md"
+
+
+def arguments(argv):
+    """Parse the command line."""
+    listing = "\n".join(f"  {name:<14} {what}" for name, what in BENCHMARKS.items())
+    parser = argparse.ArgumentParser("bench", description="side-by-side benchmarks", epilog=listing, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("names", nargs="*", metavar="NAME", help="which; all when none is named")
+    parser.add_argument("--quick", action="store_true", help="fewer settings, shorter runs; figures are rougher")
+    parser.add_argument("-o", "--output", type=Path, default=Path("out/bench"), metavar="DIR", help="where the JSON results go (default: %(default)s)")
+    parser.add_argument("--docs", action="store_true", help="put the tables into docs/measurements.md")
+    chosen = parser.parse_args(argv)
+    unknown = [name for name in chosen.names if name not in BENCHMARKS]
+    if unknown:
+        parser.error(f"no benchmark is called {unknown[0]}; there are: {', '.join(BENCHMARKS)}")
+    return chosen
+
+
+def main(argv=None):
+    """0 all goals reached, 1 a goal missed or a benchmark failed, 2 bad usage, 130 interrupted."""
+    chosen = arguments(argv)
+    facts = machine.describe()
+    print(machine.sentence(facts), flush=True)
+    chosen.output.mkdir(parents=True, exist_ok=True)
+    failed = []
+    for name in chosen.names or BENCHMARKS:
+        print(f"\n== {name}: {BENCHMARKS[name]}", flush=True)
+        result = importlib.import_module(f".{name}", __package__).run(chosen.quick)
+        result["machine"] = facts
+        (chosen.output / f"{name}.json").write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
+        if chosen.docs:
+            text = DOCUMENT.read_text(encoding="utf-8")
+            for key, content in result["tables"].items():
+                text = tables.refresh(text, key, f"{content}\n\n{machine.sentence(facts)}")
+            DOCUMENT.write_text(text, encoding="utf-8")
+        for miss in result["failed"]:
+            print(f"MISSED: {miss}", flush=True)
+        failed += result["failed"]
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except KeyboardInterrupt:
+        sys.exit(130)

@@ -1,0 +1,91 @@
+"""Prescribed platform motions: pose and twist as functions of time, arrays in, arrays out."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+def smooth_ramp(t, duration):
+    """Factor from 0 to 1 over ``duration`` s and its rate: the fifth-order polynomial with no velocity or acceleration at its ends."""
+    s = np.clip(np.asarray(t, dtype=float) / duration, 0.0, 1.0)
+    factor = s**3 * (10.0 + s * (6.0 * s - 15.0))
+    rate = 30.0 * s**2 * (1.0 - s) ** 2 / duration
+    return factor, rate
+
+
+def poses_and_twists(position, velocity):
+    """Positions and velocities (n, 3) of a platform that does not rotate as poses (n, 7) and twists (n, 6)."""
+    n = len(position)
+    poses = np.zeros((n, 7))
+    poses[:, :3] = position
+    poses[:, 6] = 1.0
+    twists = np.zeros((n, 6))
+    twists[:, :3] = velocity
+    return poses, twists
+
+
+@dataclass(frozen=True)
+class SurgeHeave:
+    """Surge ``sin`` and heave ``cos`` at one period: the reference point runs an ellipse, ramped up smoothly from rest at the zero pose."""
+
+    surge: float = 4.0  # m, amplitude
+    heave: float = 3.0  # m, amplitude
+    period: float = 14.5  # s
+    ramp_periods: float = 3.0
+    measured_periods: float = 4.0
+
+    @property
+    def start(self) -> float:
+        """Time from which is measured (s)."""
+        return self.ramp_periods * self.period
+
+    @property
+    def end(self) -> float:
+        """Time to which is measured (s)."""
+        return (self.ramp_periods + self.measured_periods) * self.period
+
+    def displacement(self, t):
+        """Displacement (n, 3) in m and velocity (n, 3) in m/s of the platform at the times t (n,)."""
+        t = np.asarray(t, dtype=float)
+        w = 2.0 * np.pi / self.period
+        factor, rate = smooth_ramp(t, self.start)
+        zero = np.zeros_like(t)
+        shape = np.stack([self.surge * np.sin(w * t), zero, self.heave * np.cos(w * t)], axis=1)
+        slope = w * np.stack([self.surge * np.cos(w * t), zero, -self.heave * np.sin(w * t)], axis=1)
+        return factor[:, None] * shape, factor[:, None] * slope + rate[:, None] * shape
+
+
+@dataclass(frozen=True)
+class Circle:
+    """A circle of the given radius in the vertical x-z plane about the zero pose; starts at rest in the centre and spirals out.
+
+    Seen with x to the right and z up, clockwise goes up on the left, to the right at the top, down on the right.
+    """
+
+    radius: float  # m
+    period: float  # s
+    clockwise: bool = True
+    ramp_periods: float = 3.0
+    measured_periods: float = 5.0
+
+    @property
+    def start(self) -> float:
+        """Time from which is measured (s)."""
+        return self.ramp_periods * self.period
+
+    @property
+    def end(self) -> float:
+        """Time to which is measured (s)."""
+        return (self.ramp_periods + self.measured_periods) * self.period
+
+    def displacement(self, t):
+        """Displacement (n, 3) in m and velocity (n, 3) in m/s of the platform at the times t (n,)."""
+        t = np.asarray(t, dtype=float)
+        w = 2.0 * np.pi / self.period
+        # the first half of the ramp time brings it onto the circle, the second lets the start die out
+        factor, rate = smooth_ramp(t, 0.5 * self.start)
+        sense = 1.0 if self.clockwise else -1.0
+        zero = np.zeros_like(t)
+        shape = self.radius * np.stack([sense * np.sin(w * t), zero, np.cos(w * t)], axis=1)
+        slope = self.radius * w * np.stack([sense * np.cos(w * t), zero, -np.sin(w * t)], axis=1)
+        return factor[:, None] * shape, factor[:, None] * slope + rate[:, None] * shape
