@@ -1,0 +1,144 @@
+"""The floater's side of the coupling over ROS: Odometry out, wrenches in, one answer to each sample.
+
+Samples carry simulated time. A stamp is never sent twice: to the mooring node that would be a repeated input. Answers are
+matched by their stamp; what is missing, comes twice or comes too late is counted.
+"""
+
+import time
+from dataclasses import dataclass
+
+import numpy as np
+from geometry_msgs.msg import WrenchStamped
+from nav_msgs.msg import Odometry
+from rclpy.experimental.events_executor import EventsExecutor
+from rclpy.qos import QoSProfile
+
+from mooring_ros.demo.floater import rotation_matrix
+
+ODOMETRY_TOPIC = "platform/odom"
+WRENCH_TOPIC = "mooring/wrench"
+_POLL = 0.1  # s, how long a wait may go on before it looks whether to stop
+
+
+class LinkError(Exception):
+    """The mooring node is not there, or has stopped answering; the text says what was waited for."""
+
+
+class Stopped(Exception):
+    """The wait was ended from outside (Ctrl-C, SIGTERM)."""
+
+
+@dataclass
+class Counts:
+    """Samples sent, answers in time, samples without an answer, answers that came twice, answers that came too late."""
+
+    sent: int = 0
+    answered: int = 0
+    lost: int = 0
+    doubled: int = 0
+    late: int = 0
+
+
+class MooringLink:
+    """Publishes `platform/odom` and takes `mooring/wrench` on a rclpy node.
+
+    stop: called without arguments, tells whether to stop; waits then raise Stopped. counts: Counts.
+    """
+
+    def __init__(self, node, stop):
+        self.counts = Counts()
+        self._node, self._stop = node, stop
+        self._publisher = node.create_publisher(Odometry, ODOMETRY_TOPIC, QoSProfile(depth=10))
+        self._subscription = node.create_subscription(WrenchStamped, WRENCH_TOPIC, self._take, QoSProfile(depth=10))
+        self._executor = EventsExecutor()
+        self._executor.add_node(node)
+        self._sent = {}  # stamp -> perf_counter of sending, for samples not answered yet
+        self._answers = {}  # stamp -> (wrench, round trip in s)
+        self._given_up = set()  # stamps
+
+    def wait_for_mooring(self, timeout):
+        """Wait until the node listens and speaks. Raises LinkError after timeout (s), Stopped."""
+        end = time.monotonic() + timeout
+        missing = f"nobody listens to {self._publisher.topic_name} and speaks on {self._subscription.topic_name}"
+        while not (self._publisher.get_subscription_count() and self._subscription.get_publisher_count()):
+            self._check(end, missing, timeout)
+            self._executor.spin_once(timeout_sec=_POLL)
+
+    def greet(self, stamps, pose, timeout, patience=1.0):
+        """Send the pose (7,) at rest, at one stamp (ns) of the iterator after the other, until one is answered.
+
+        Being discovered is not yet being heard: an answer may be sent before this side can hear it. Unanswered samples are followed
+        by later ones, each after a while (patience, s), and not counted. Returns the wrench (6,). Raises LinkError after timeout (s), Stopped.
+        """
+        end = time.monotonic() + timeout
+        while True:
+            self.send(next(stamps), pose, np.zeros(6))
+            until = min(end, time.monotonic() + patience)
+            while not self._answers and time.monotonic() < until:
+                self._check(end, "the mooring node does not answer", timeout)
+                self._executor.spin_once(timeout_sec=_POLL)
+            if self._answers:
+                wrench, _ = self._answers.popitem()[1]
+                self.counts = Counts()
+                return wrench
+            self._check(end, "the mooring node does not answer", timeout)
+
+    def send(self, stamp, pose, twist):
+        """Publish a sample: stamp ns, pose (7,), twist (6,) in the world frame (the message's is in the platform's, as ROS wants it)."""
+        message = Odometry()
+        message.header.frame_id, message.child_frame_id = "world", "platform"
+        message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp, 1_000_000_000)
+        position, orientation = message.pose.pose.position, message.pose.pose.orientation
+        position.x, position.y, position.z, orientation.x, orientation.y, orientation.z, orientation.w = map(float, pose)
+        to_body = rotation_matrix(pose[3:7]).T
+        linear, angular = message.twist.twist.linear, message.twist.twist.angular
+        linear.x, linear.y, linear.z = (to_body @ twist[:3]).tolist()
+        angular.x, angular.y, angular.z = (to_body @ twist[3:]).tolist()
+        self.counts.sent += 1
+        self._sent[stamp] = time.perf_counter()
+        self._publisher.publish(message)
+
+    def answer(self, stamp, timeout):
+        """The (wrench (6,), round trip in s) that answers the sample of this stamp, or None when none came within timeout (s)."""
+        end = time.monotonic() + timeout
+        while stamp not in self._answers:
+            if self._stop():
+                raise Stopped
+            left = end - time.monotonic()
+            if left <= 0.0:
+                self.counts.lost += 1
+                self._sent.pop(stamp, None)
+                self._given_up.add(stamp)
+                return None
+            self._executor.spin_once(timeout_sec=min(left, _POLL))
+        self.counts.answered += 1
+        return self._answers.pop(stamp)
+
+    @property
+    def heard(self):
+        """Whether anybody listens to the samples."""
+        return self._publisher.get_subscription_count() > 0
+
+    def close(self):
+        """Let go of the executor; the node stays the caller's."""
+        self._executor.shutdown()
+
+    def _take(self, message):
+        stamp = message.header.stamp.sec * 1_000_000_000 + message.header.stamp.nanosec
+        sent = self._sent.pop(stamp, None)
+        if sent is None:
+            if stamp in self._given_up:
+                self._given_up.remove(stamp)
+                self.counts.late += 1
+            else:
+                self.counts.doubled += 1
+            return
+        force, torque = message.wrench.force, message.wrench.torque
+        wrench = np.array([force.x, force.y, force.z, torque.x, torque.y, torque.z])
+        self._answers[stamp] = wrench, time.perf_counter() - sent
+
+    def _check(self, end, missing, timeout):
+        if self._stop():
+            raise Stopped
+        if time.monotonic() >= end:
+            raise LinkError(f"{missing}, waited {timeout:g} s")
