@@ -17,13 +17,14 @@ SCHEMA_ENCODINGS = ('ros2msg', 'ros2idl')       # the messages are CDR with both
 
 
 class Entry(NamedTuple):
-    """One message. Times: integer ns. data: CDR bytes."""
+    """One message. Times: integer ns. data: CDR bytes. sequence: counts a topic's messages; ours has a gap where one was lost."""
 
     topic: str
     type_name: str
     log_time: int
     publish_time: int
     data: bytes
+    sequence: int = 0
 
 
 class Recording:
@@ -104,7 +105,7 @@ class Recording:
                         wanted[record.channel_id] = self._wanted(file, record, channels, schemas, topics)
                     if wanted[record.channel_id]:
                         topic, type_name = wanted[record.channel_id]
-                        yield Entry(topic, type_name, record.log_time, record.publish_time, record.data)
+                        yield Entry(topic, type_name, record.log_time, record.publish_time, record.data, record.sequence)
                 elif isinstance(record, Channel):
                     channels[record.id] = record
                 elif isinstance(record, Schema):

@@ -152,3 +152,9 @@ def _decompress(compression, data, size):
         except (zstandard.ZstdError, RuntimeError, EOFError) as error:
             return bytes(done), str(error)
     return bytes(done[:size]), None if len(done) >= size else 'too short'
+
+
+def is_mcap(path):
+    """Whether a file begins as an MCAP file does. Raises OSError."""
+    with open(path, 'rb') as file:
+        return file.read(len(MCAP0_MAGIC)) == MCAP0_MAGIC

@@ -69,6 +69,7 @@ class RecordingWriter:
         self._stop = threading.Event()
         self._closed = False
         self._types = {}                    # topic -> type name
+        self._given = {}                    # topic -> messages given to write(): a gap in the sequence tells a reader of a loss
         self._qos = {}                      # topic -> Qos
         self._schemas = {}                  # type name -> schema id
         self._channels = {}                 # topic -> channel id
@@ -112,6 +113,7 @@ class RecordingWriter:
             schema_text(type_name)
             with self._lock:
                 self._qos[topic] = qos
+                self._given[topic] = 0
                 self._types[topic] = type_name
         elif known != type_name:
             raise RecordingError(f'topic {topic!r} is recorded as {known}: cannot take {type_name} as well')
@@ -129,11 +131,13 @@ class RecordingWriter:
         data = bytes(cdr_bytes)
         size = len(data) + MESSAGE_OVERHEAD
         with self._lock:
+            sequence = self._given[topic]
+            self._given[topic] = sequence + 1
             if self._closed or self._bytes_in - self._bytes_out + size > self._queue_limit:
                 self._dropped += 1
                 return
             self._bytes_in += size
-            self._queue.append((topic, data, log_time, publish_time))
+            self._queue.append((topic, data, log_time, publish_time, sequence))
 
     def close(self, timeout=None):
         """Write what is queued, the index and metadata.yaml, and close the file. May be called again.
@@ -185,21 +189,21 @@ class RecordingWriter:
     def _take(self):
         """Move the queue into the MCAP writer; stops, and returns False, when the disk refuses a full chunk."""
         for number in range(len(self._queue)):
-            topic, data, log_time, publish_time = self._queue.popleft()
+            topic, data, *times_and_sequence = self._queue.popleft()
             self._bytes_out += len(data) + MESSAGE_OVERHEAD
-            self._add(topic, data, log_time, publish_time)
+            self._add(topic, data, *times_and_sequence)
             if self._sink.pending and not self._commit():
                 return False
             if number % YIELD_EVERY == 0:
                 time.sleep(0)
         return True
 
-    def _add(self, topic, data, log_time, publish_time):
+    def _add(self, topic, data, log_time, publish_time, sequence):
         channel = self._channels.get(topic)
         if channel is None:
             channel = self._register(topic)
         entry = self._topics[topic]
-        self._mcap.add_message(channel, log_time, data, publish_time, sequence=entry.count & 0xffffffff)
+        self._mcap.add_message(channel, log_time, data, publish_time, sequence & 0xffffffff)
         self._bag.start = min(self._bag.start, log_time)
         self._bag.end = max(self._bag.end, log_time)
         entry.count += 1

@@ -1,0 +1,53 @@
+"""A platform's motion from a file: CSV, MCAP with Odometry or PoseStamped and TwistStamped, or a recording of the node itself."""
+
+import os
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from mooring_ros.recording.records import is_mcap
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A recorded motion, in the inside convention: world ENU, SI units, full scale.
+
+    For a recording of the node, times, poses and twists are those of the settles and steps in the schedule, as they were passed to
+    `Mooring`; times may repeat there, at a settle.
+    """
+
+    path: str
+    times: np.ndarray               # (n,) s; as in a CSV file; of MCAP see `motion_mcap`
+    poses: np.ndarray               # (n, 7) m and unit quaternion x, y, z, w
+    twists: np.ndarray              # (n, 6) m/s and rad/s, world axes
+    stamps: np.ndarray              # (n,) int ns, the stamps of the source
+    source: str                     # in words: which topic or which columns
+    schedule: list | None = None    # of recording.schedule.Action, for a recording of the node
+    schedule_stamps: list | None = None     # ns, of each action
+    parameters: dict | None = None  # of the node, for a recording of it
+    scene: tuple | None = None      # (file name, bytes) of the scene in the recording
+    remarks: tuple = field(default=())      # str, what a user should know about how the file was read
+
+    @property
+    def start_ns(self):
+        """Stamp of the first sample, ns."""
+        return int(self.stamps[0])
+
+
+def load_motion(path, topic=None):
+    """The Motion in a file or bag folder.
+
+    topic: which one to take of an MCAP file that has several (`POSE_TOPIC,TWIST_TOPIC` for a pair); it also makes a recording of
+    the node be read by its input instead of its schedule.
+    Raises ValueError (FILE:LINE or FILE: what is wrong, what was expected) and OSError.
+    """
+    path = os.fspath(path)
+    if os.path.isdir(path) or path.endswith((".mcap", ".db3")) or is_mcap(path):
+        from .motion_mcap import load_mcap
+
+        return load_mcap(path, topic)
+    if topic is not None:
+        raise ValueError(f"{path}: a topic was named ({topic}), expected an MCAP file for that")
+    from .motion_csv import load_csv
+
+    return load_csv(path)
