@@ -81,7 +81,7 @@ class Scene:
     """Everything a scene file says, checked. Equal when path, text and all parts are equal."""
 
     path: str
-    text: str  # the file's exact content; text.encode("utf-8") gives its bytes back
+    text: str = field(repr=False)  # the file's exact content; text.encode("utf-8") gives its bytes back
     line_types: tuple[LineType, ...]
     points: tuple[Point, ...]
     lines: tuple[Line, ...]

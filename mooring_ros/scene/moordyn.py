@@ -18,13 +18,13 @@ _LARGEST_FILE = 16 * 1024 * 1024  # bytes
 
 def load_scene(path: str | os.PathLike) -> Scene:
     """Reads and checks a MoorDyn v2 input file. SceneError when it cannot be read or used."""
-    file = os.fspath(path)
+    file = os.fsdecode(path)
     return parse_scene(_read_text(file), file)
 
 
 def parse_scene(text: str, path: str | os.PathLike = "scene") -> Scene:
     """Checks the content of a MoorDyn v2 input file; ``path`` is only for messages and for Scene.path."""
-    file = os.fspath(path)
+    file = os.fsdecode(path)
     if "\0" in text:
         raise SceneError(file, text.count("\n", 0, text.index("\0")) + 1, f"not a text file, {_EXPECTED}")
     rows = read_rows(text, file)

@@ -40,7 +40,7 @@ def read_line_types(section: Section) -> tuple[LineType, ...]:
     types: dict[str, LineType] = {}
     for row in section.rows:
         if len(row.words) not in (10, 11, 12, 13):
-            raise row.error(f"{len(row.words)} columns, expected 10: Name Diam Mass/m EA BA/-zeta EI Cd Ca CdAx CaAx")
+            raise row.error(f"{len(row.words)} columns, expected 10: Name Diam Mass/m EA BA/-zeta EI Cd Ca CdAx CaAx (a comment begins with #)")
         name = row.words[0]
         if name in types:
             raise row.error(f"a second line type '{name}' (the first is in line {types[name].source_line}), expected another name")
@@ -93,7 +93,7 @@ def read_points(section: Section) -> tuple[Point, ...]:
     for row in section.rows:
         words = row.words
         if len(words) not in (9, 12):
-            raise row.error(f"{len(words)} columns, expected 9: ID Type X Y Z Mass Volume CdA Ca")
+            raise row.error(f"{len(words)} columns, expected 9: ID Type X Y Z Mass Volume CdA Ca (a comment begins with #)")
         id = row.count(0, "point ID", LARGEST_ID)
         if id in points:
             raise row.error(f"a second point {id} (the first is in line {points[id].source_line}), expected another ID")
