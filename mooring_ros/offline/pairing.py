@@ -3,11 +3,13 @@
 import difflib
 
 FAIRLEAD = ".fairlead_tension"
+TENSION = "_tension"
 
 
 def pair_names(result, reference, mapping=()):
     """List of (name in result, name in reference): those of mapping first, then equal names that mapping leaves over.
 
+    Of the equal names only the tensions, where there are any; wrenches beside them have to be asked for by mapping.
     result, reference: names in their order; mapping: (A, B) pairs. A name of a line stands for all its series, or, against one
     single series, for its fairlead tension. Raises ValueError for a name that is not there, and when nothing pairs.
     """
@@ -16,7 +18,9 @@ def pair_names(result, reference, mapping=()):
     for a, b in mapping:
         pairs += _mapped(a, b, result, reference)
     taken_result, taken_reference = {a for a, _ in pairs}, {b for _, b in pairs}
-    pairs += [(name, name) for name in result if name in reference and name not in taken_result and name not in taken_reference]
+    equal = [name for name in result if name in reference and name not in taken_result and name not in taken_reference]
+    tensions = [name for name in equal if name.endswith(TENSION)]
+    pairs += [(name, name) for name in tensions or equal]
     if not pairs:
         raise ValueError(
             f"no names in common: the result has {listed(result)}; the reference has {listed(reference)}; expected --map A=B for names that differ"

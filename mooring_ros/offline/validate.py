@@ -4,7 +4,7 @@ import argparse
 from dataclasses import asdict
 
 from .compare import common_base, compare
-from .console import UsageError, print_json, reading, table
+from .console import UsageError, complain, print_json, reading, table
 from .files import check_output
 from .pairing import listed, pair_names
 
@@ -32,7 +32,8 @@ def run(args):
     if args.output:
         from .validate_report import write
 
-        write(args.output, bases, comparison)
+        with reading(args.output):
+            write(args.output, bases, comparison)
     if args.json:
         print_json(comparison)
     else:
@@ -50,6 +51,8 @@ def validate(result_path, reference_path, mapping=()):
         result = load_history(result_path)
     with reading(reference_path):
         reference = load_history(reference_path)
+    for remark in (*result.remarks, *reference.remarks):
+        complain(remark)
     bases, pairs = {}, []
     try:
         names = pair_names(result.series, reference.series, mapping)
@@ -111,7 +114,7 @@ def _text(comparison):
     ]
     for whose, names in comparison["unpaired"].items():
         if names:
-            text.append(f"only in the {whose}: {listed(names)}")
+            text.append(f"not compared, of the {whose}: {listed(names)}")
     return "\n".join(text)
 
 

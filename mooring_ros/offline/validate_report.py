@@ -19,7 +19,7 @@ def write(path, bases, comparison):
     )
     for whose, names in comparison["unpaired"].items():
         if names:
-            intro += report.paragraph(f"Only in the {whose}: {', '.join(names)}.")
+            intro += report.paragraph(f"Not compared, of the {whose}: {', '.join(names)}.")
     moments = report.table(
         ["pair", "μ result (N)", "μ reference (N)", "σ result (N)", "σ reference (N)", "peak at (s)"],
         [

@@ -1,0 +1,126 @@
+"""What a replay writes: an MCAP recording like the node's, and a CSV table. Readable at any end, also an early one."""
+
+import os
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from geometry_msgs.msg import Point, Quaternion, Vector3
+from nav_msgs.msg import Odometry
+from rclpy.serialization import serialize_message
+
+from mooring_ros.motion import rotation
+from mooring_ros.node import messages
+from mooring_ros.recording import schedule
+from mooring_ros.recording.writer import RecordingWriter
+
+from .console import ComputationFailed, reading
+
+NODE = "/mooring"
+ODOMETRY_TOPIC, ODOMETRY = "/platform/odom", "nav_msgs/msg/Odometry"
+WORLD_FRAME, PLATFORM_FRAME = "world", "platform"
+_WAITING_MESSAGES = 20_000  # for the disk: more than these and the replay waits for it
+WRENCH_COLUMNS = ("wrench.fx", "wrench.fy", "wrench.fz", "wrench.mx", "wrench.my", "wrench.mz")
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What the mooring answers to one sample, as it goes out: the source's axes and scale. L lines, k coupled points."""
+
+    stamp: int  # ns
+    time: float  # s
+    wrench: np.ndarray  # (6,) N, N·m
+    coupled_wrenches: np.ndarray  # (k, 6) N, N·m
+    fairlead_tension: np.ndarray  # (L,) N
+    anchor_tension: np.ndarray  # (L,) N
+
+
+class CsvOutput:
+    """A table that appears under its name when it is closed; until then it is NAME.part. Numbers read back to the same bits."""
+
+    def __init__(self, path, line_names):
+        self._path, self._part = Path(path), Path(f"{path}.part")
+        with reading(self._part):
+            self._file = open(self._part, "w", encoding="ascii", newline="\n")
+        ends = [f"{name}.{end}_tension" for name in line_names for end in ("fairlead", "anchor")]
+        self._file.write(",".join(["time", *ends, *WRENCH_COLUMNS]) + "\n")
+
+    def write(self, answer):
+        """One row."""
+        tensions = np.column_stack((answer.fairlead_tension, answer.anchor_tension)).ravel()
+        self._file.write(",".join(map(repr, [float(answer.time), *tensions.tolist(), *answer.wrench.tolist()])) + "\n")
+
+    def close(self):
+        self._file.close()
+        os.replace(self._part, self._path)
+
+
+class McapOutput:
+    """A recording with the node's topics, that itself replays bit for bit. It appears under its name when it is closed."""
+
+    def __init__(self, path, parameters, scene, coupled_names):
+        """parameters: dict as the node's; scene: the Scene, kept in the recording."""
+        self._path = Path(path)
+        self._part = self._path.with_suffix(".part.mcap")
+        with reading(path):
+            self._part.unlink(missing_ok=True)
+            self._writer = RecordingWriter(self._part, parameters, os.path.basename(scene.path), scene.text.encode("utf-8"))
+        self._coupled_topics = [messages.fairlead_topic(NODE, name) for name in coupled_names]
+        self._sent = 0
+
+    def write(self, answer, sample, composed):
+        """The answer to one sample. sample: Mooring (or like it) as it stands; composed: its node.messages.Messages."""
+        stamp = answer.stamp
+        self._put(f"{NODE}/wrench", messages.WRENCH, composed.wrench(stamp, answer.wrench), stamp)
+        for topic, wrench in zip(self._coupled_topics, answer.coupled_wrenches):
+            self._put(topic, messages.WRENCH, composed.wrench(stamp, wrench), stamp)
+        self._put(f"{NODE}/lines", messages.JOINT_STATE, composed.lines(stamp, sample), stamp)
+        self._put(f"{NODE}/line_tensions", messages.FLOAT_ARRAY, composed.line_tensions(sample), stamp)
+        self._wait_for_the_disk()
+
+    def write_step(self, stamp, record):
+        """One record (15 floats) of the step schedule."""
+        from std_msgs.msg import Float64MultiArray
+
+        message = serialize_message(Float64MultiArray(data=messages.floats(record)))
+        self._put(NODE + schedule.TOPIC_SUFFIX, schedule.TYPE_NAME, message, stamp)
+
+    def write_motion(self, stamp, pose, twist):
+        """The motion as Odometry. pose (7,), twist (6,) in world axes, SI units."""
+        self._put(ODOMETRY_TOPIC, ODOMETRY, serialize_message(odometry(stamp, pose, twist)), stamp)
+
+    def write_entry(self, entry):
+        """A message of another recording, unchanged."""
+        self._put(entry.topic, entry.type_name, entry.data, entry.log_time, entry.publish_time)
+
+    def close(self):
+        """Close the file and give it its name. Raises ComputationFailed when messages were lost to the disk."""
+        self._writer.close()
+        os.replace(self._part, self._path)
+        if self._writer.error or self._writer.lost:
+            raise ComputationFailed(f"{self._path}: {self._writer.lost} messages could not be written: {self._writer.error or 'lost'}")
+
+    def _put(self, topic, type_name, data, stamp, publish=None):
+        self._writer.write(topic, type_name, data, stamp, publish)
+        self._sent += 1
+
+    def _wait_for_the_disk(self):
+        while self._sent - self._writer.written - self._writer.lost > _WAITING_MESSAGES:
+            if self._writer.error:
+                raise ComputationFailed(f"{self._path}: {self._writer.error}")
+            time.sleep(0.005)
+
+
+def odometry(stamp, pose, twist):
+    """nav_msgs/Odometry of a pose (7,) and a twist (6,) in world axes; its own twist is in the platform's axes, as ROS has it."""
+    message = Odometry()
+    message.header.stamp.sec, message.header.stamp.nanosec = divmod(int(stamp), 1_000_000_000)
+    message.header.frame_id, message.child_frame_id = WORLD_FRAME, PLATFORM_FRAME
+    x, y, z, *quaternion = (float(value) for value in pose)
+    back = rotation.conjugate(quaternion)
+    message.pose.pose.position = Point(x=x, y=y, z=z)
+    message.pose.pose.orientation = Quaternion(**dict(zip("xyzw", quaternion)))
+    for name, part in (("linear", twist[:3]), ("angular", twist[3:])):
+        setattr(message.twist.twist, name, Vector3(**dict(zip("xyz", rotation.rotate(back, [float(value) for value in part])))))
+    return message

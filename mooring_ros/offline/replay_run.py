@@ -1,0 +1,58 @@
+"""A recorded motion through the mooring core, one answer after the other: plain motions, and the node's own step schedules."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mooring_ros.recording import schedule
+
+from .stamps import times_of
+
+
+@dataclass(frozen=True)
+class Done:
+    """What was just done to the mooring, which now stands at its answer (a release has none).
+
+    stamp: ns, of the source; time: s, for tables, by the source's clock; record: as in the schedule (15 floats).
+    """
+
+    kind: int  # schedule.SETTLE, STEP or RELEASE
+    stamp: int
+    time: float
+    record: list
+
+
+def run_motion(mooring, times, poses, twists, stamps):
+    """Settle at the first pose, then step through all samples; yields a Done after each.
+
+    times (n,) s, poses (n, 7), twists (n, 6), stamps (n,) ns. Raises MooringError and ValueError.
+    """
+    for row, (instant, stamp) in enumerate(zip(times.tolist(), stamps.tolist())):
+        if row == 0:
+            mooring.settle(poses[0], time=instant)
+            yield Done(schedule.SETTLE, stamp, instant, schedule.encode_settle(instant, poses[0]))
+        else:
+            mooring.step(instant, poses[row], twists[row])
+            yield Done(schedule.STEP, stamp, instant, schedule.encode_step(instant, poses[row], twists[row]))
+
+
+def run_schedule(mooring, actions, stamps, time_factor):
+    """Do again what a node did, action by action; yields a Done after each.
+
+    actions: of recording.schedule; stamps: ns, one each; time_factor: seconds inside for one of the source's clock. The times yielded go on
+    over a settle that starts the core's clock anew. Raises MooringError and ValueError.
+    """
+    shown = times_of(np.asarray(stamps, dtype=np.int64))
+    offset = 0.0
+    for action, stamp, source_time in zip(actions, stamps, shown.tolist()):
+        if action.kind == schedule.SETTLE:
+            mooring.settle(action.pose, time=action.time)
+            offset = source_time - action.time / time_factor
+            record = schedule.encode_settle(action.time, action.pose)
+        elif action.kind == schedule.STEP:
+            mooring.step(action.time, action.pose, action.twist)
+            record = schedule.encode_step(action.time, action.pose, action.twist)
+        else:
+            mooring.release(mooring.line_names[action.line])
+            record = schedule.encode_release(action.time, action.line)
+        yield Done(action.kind, stamp, offset + action.time / time_factor, record)
