@@ -2,6 +2,7 @@
 
 import math
 import re
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -113,3 +114,19 @@ def test_forces_of_the_water_on_the_laboratory_chain_are_those_of_its_published_
     submerged_mass = chain.mass + scene.environment.water_density * chain.added_mass_normal * math.pi * chain.diameter**2 / 4
     critical = 2 * math.sqrt(scene.environment.bed_stiffness * submerged_mass / chain.diameter)
     assert scene.environment.bed_damping == pytest.approx(critical, rel=1e-3)
+
+
+@pytest.mark.parametrize("path", SCENES, ids=lambda path: path.stem)
+def test_a_scene_is_read_by_moordyn_itself(path, tmp_path):
+    moordyn = pytest.importorskip("moordyn")
+    scene = load_scene(path)
+    system = moordyn.Create(str(shutil.copy(path, tmp_path)))  # it writes its files beside the scene
+    try:
+        assert moordyn.GetNumberLines(system) == len(scene.lines)
+        for line in scene.lines:
+            other = moordyn.GetLine(system, line.id)
+            assert moordyn.GetLineUnstretchedLength(other) == line.length
+            assert moordyn.GetLineN(other) == line.segments
+        assert moordyn.NCoupledDOF(system) == 3 * sum(point.kind == "coupled" for point in scene.points)
+    finally:
+        moordyn.Close(system)
