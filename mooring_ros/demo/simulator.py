@@ -26,7 +26,6 @@ from mooring_ros.demo.waves import Excitation, Waves
 from mooring_ros.offline.arguments import positive
 
 _MOST_LOST = 3  # answers missing in a row
-_PATIENCE = 5.0  # s for each answer
 _REPORT_EVERY = 0.2  # s of wall time between progress reports
 
 
@@ -50,10 +49,10 @@ class Summary:
     round_trips: list
 
 
-def run(link, integrator, steps, stamps, timeout, report=lambda time: None):
+def run(link, integrator, steps, stamps, timeout, patience, report=lambda time: None):
     """Couple for so many steps; the floater begins at rest, trimmed under the moorings' first answer.
 
-    stamps: iterator of ns, one a sample; timeout: s, for the node to appear; report: called now and then with the simulated time.
+    stamps: iterator of ns, one a sample; timeout: s, for the node to appear; patience: s, for each answer; report: called now and then with the simulated time.
     Returns the Summary. Raises LinkError, Stopped, ArithmeticError.
     """
     link.wait_for_mooring(timeout)
@@ -65,7 +64,7 @@ def run(link, integrator, steps, stamps, timeout, report=lambda time: None):
         stamp = next(stamps)
         start_stamp = stamp if start_stamp is None else start_stamp
         link.send(stamp, integrator.pose, integrator.twist)
-        answer = link.answer(stamp, _PATIENCE)
+        answer = link.answer(stamp, patience)
         if answer is None:
             missing += 1
             if missing == _MOST_LOST or not link.heard:
@@ -98,7 +97,8 @@ def main(argv=None):
     try:
         waves = Waves(sea_state(options), options.depth)
         integrator = Integrator(Floater(), Excitation(waves, volturnus_s()), 1.0 / options.rate)
-        summary = run(link, integrator, round(options.duration * options.rate), _stamps(options.rate), options.timeout, _reporter(options))
+        steps = max(1, round(options.duration * options.rate))
+        summary = run(link, integrator, steps, _stamps(options.rate), options.timeout, options.patience, _reporter(options))
         if options.summary:
             with open(options.summary, "w", encoding="utf-8") as file:
                 json.dump(asdict(summary), file)
@@ -134,6 +134,7 @@ def _parse(argv):
     add_sea_arguments(parser)
     parser.add_argument("--depth", type=positive, default=200.0, metavar="M", help="water depth in m (default: 200)")
     parser.add_argument("--timeout", type=positive, default=60.0, metavar="S", help="how long to wait for the mooring node, in s (default: 60)")
+    parser.add_argument("--patience", type=positive, default=5.0, metavar="S", help="how long to wait for an answer, in s (default: 5)")
     parser.add_argument("--summary", metavar="FILE", help="write what became of the run here, as JSON")
     parser.add_argument("--json", action="store_true", help="progress as JSON lines")
     return parser.parse_args(argv)
