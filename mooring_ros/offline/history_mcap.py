@@ -107,6 +107,6 @@ def _at(path, topic, rows, stamps, remarks):
     own, values = _table(path, topic, rows, len(AXES))
     if np.array_equal(own, stamps):
         return values
-    remarks.append(f"{topic}: stamps differ from those of the tensions, interpolated linearly")
+    remarks.append(f"{topic}: stamps differ from those of the tensions, interpolated linearly and held at the ends")
     at, given = (stamps - own[0]).astype(float), (own - own[0]).astype(float)
     return np.column_stack([np.interp(at, given, values[:, column]) for column in range(values.shape[1])])
