@@ -3,13 +3,11 @@ import collections
 import json
 from typing import NamedTuple
 
-from mcap.exceptions import McapError
-from mcap.reader import make_reader
 from mcap.records import Attachment, Channel, Header, Message, Metadata, Schema
 
 from .bag_files import bag_files
 from .errors import RecordingError
-from .records import Cut, Damage, open_file, read_records
+from .records import Cut, Damage, read_records, read_summary
 from .writer import METADATA_NAME, SCENE_MEDIA_TYPE
 
 PROFILE = 'ros2'
@@ -98,7 +96,10 @@ class Recording:
         Raises RecordingError for a message that is not CDR with a ROS 2 schema.
         """
         for file in self.files:
-            schemas, channels, wanted = {}, {}, {}
+            summary = read_summary(file)
+            # What is described again at the end stands in for a description in a damaged chunk.
+            schemas, channels = (dict(summary.schemas), dict(summary.channels)) if summary else ({}, {})
+            wanted = {}
             for record in read_records(file):
                 if isinstance(record, Message):
                     if record.channel_id not in wanted:
@@ -131,11 +132,7 @@ class Recording:
 
 def _summary(file):
     """[(topic, type name, count)] from a file's summary, or None where it has none."""
-    with open_file(file) as stream:
-        try:
-            summary = make_reader(stream).get_summary()
-        except (McapError, ValueError, OSError):
-            return None
+    summary = read_summary(file)
     if summary is None or summary.statistics is None:
         return None
     counts = summary.statistics.channel_message_counts

@@ -8,7 +8,9 @@ from dataclasses import dataclass
 import lz4.frame
 import zstandard
 from mcap.data_stream import ReadDataStream
+from mcap.exceptions import McapError
 from mcap.opcode import Opcode
+from mcap.reader import make_reader
 from mcap.records import Attachment, Channel, Header, Message, Metadata, Schema
 from mcap.writer import MCAP0_MAGIC
 
@@ -152,6 +154,15 @@ def _decompress(compression, data, size):
         except (zstandard.ZstdError, RuntimeError, EOFError) as error:
             return bytes(done), str(error)
     return bytes(done[:size]), None if len(done) >= size else 'too short'
+
+
+def read_summary(path):
+    """The mcap Summary at the end of a file, or None where it has none."""
+    with open_file(path) as file:
+        try:
+            return make_reader(file).get_summary()
+        except (McapError, struct.error, ValueError, OSError):
+            return None
 
 
 def is_mcap(path):

@@ -1,4 +1,5 @@
 """A recording that was cut off, made readable for ordinary readers again."""
+import itertools
 import os
 import shutil
 from dataclasses import dataclass, field
@@ -10,7 +11,7 @@ from mcap.writer import CompressionType, Writer
 from . import bag_metadata
 from .bag_files import bag_files
 from .errors import RecordingError
-from .records import Cut, Damage, read_records
+from .records import Cut, Damage, read_records, read_summary
 from .writer import library_name
 
 
@@ -98,7 +99,10 @@ class _Copy:
 
     def take(self, source):
         schemas, channels, headed = {0: (0, '')}, {}, False
-        for record in read_records(source):
+        summary = read_summary(source)
+        # What is described again at the end stands in for a description in a damaged chunk.
+        described = [*summary.schemas.values(), *summary.channels.values()] if summary else []
+        for record in itertools.chain(described, read_records(source)):
             if isinstance(record, Message):
                 self._message(source, record, channels)
             elif isinstance(record, Header):
