@@ -8,10 +8,11 @@ from pathlib import Path
 import numpy as np
 from geometry_msgs.msg import Point, Quaternion, Vector3
 from nav_msgs.msg import Odometry
-from rclpy.serialization import serialize_message
+from std_msgs.msg import Float64MultiArray
 
 from mooring_ros.motion import rotation
 from mooring_ros.node import messages
+from mooring_ros.node.template import Template, placeholder, placeholder_stamp
 from mooring_ros.recording import schedule
 from mooring_ros.recording.writer import RecordingWriter
 
@@ -67,6 +68,7 @@ class McapOutput:
             self._part.unlink(missing_ok=True)
             self._writer = RecordingWriter(self._part, parameters, os.path.basename(scene.path), scene.text.encode("utf-8"))
         self._coupled_topics = [messages.fairlead_topic(NODE, name) for name in coupled_names]
+        self._motion, self._step = _MotionTemplate(WORLD_FRAME, PLATFORM_FRAME), _step_template()
         self._sent = 0
 
     def write(self, answer, sample, composed):
@@ -81,14 +83,11 @@ class McapOutput:
 
     def write_step(self, stamp, record):
         """One record (15 floats) of the step schedule."""
-        from std_msgs.msg import Float64MultiArray
-
-        message = serialize_message(Float64MultiArray(data=messages.floats(record)))
-        self._put(NODE + schedule.TOPIC_SUFFIX, schedule.TYPE_NAME, message, stamp)
+        self._put(NODE + schedule.TOPIC_SUFFIX, schedule.TYPE_NAME, self._step.fill(0, record), stamp)
 
     def write_motion(self, stamp, pose, twist):
         """The motion as Odometry. pose (7,), twist (6,) in world axes, SI units."""
-        self._put(ODOMETRY_TOPIC, ODOMETRY, serialize_message(odometry(stamp, pose, twist)), stamp)
+        self._put(ODOMETRY_TOPIC, ODOMETRY, self._motion.fill(stamp, pose, twist), stamp)
 
     def write_entry(self, entry):
         """A message of another recording, unchanged."""
@@ -112,15 +111,25 @@ class McapOutput:
             time.sleep(0.005)
 
 
-def odometry(stamp, pose, twist):
+class _MotionTemplate:
     """nav_msgs/Odometry of a pose (7,) and a twist (6,) in world axes; its own twist is in the platform's axes, as ROS has it."""
-    message = Odometry()
-    message.header.stamp.sec, message.header.stamp.nanosec = divmod(int(stamp), 1_000_000_000)
-    message.header.frame_id, message.child_frame_id = WORLD_FRAME, PLATFORM_FRAME
-    x, y, z, *quaternion = (float(value) for value in pose)
-    back = rotation.conjugate(quaternion)
-    message.pose.pose.position = Point(x=x, y=y, z=z)
-    message.pose.pose.orientation = Quaternion(**dict(zip("xyzw", quaternion)))
-    for name, part in (("linear", twist[:3]), ("angular", twist[3:])):
-        setattr(message.twist.twist, name, Vector3(**dict(zip("xyz", rotation.rotate(back, [float(value) for value in part])))))
-    return message
+
+    def __init__(self, world, platform):
+        pose, twist = placeholder(7), placeholder(6)
+        message = Odometry(child_frame_id=platform)
+        message.header.stamp, message.header.frame_id = placeholder_stamp(), world
+        x, y, z, *quaternion = pose.tolist()
+        message.pose.pose.position = Point(x=x, y=y, z=z)
+        message.pose.pose.orientation = Quaternion(**dict(zip("xyzw", quaternion)))
+        message.twist.twist.linear = Vector3(**dict(zip("xyz", twist[:3].tolist())))
+        message.twist.twist.angular = Vector3(**dict(zip("xyz", twist[3:].tolist())))
+        self._template = Template(message, [pose, twist])
+
+    def fill(self, stamp, pose, twist):
+        back, twist = rotation.conjugate(pose[3:].tolist()), twist.tolist()
+        return self._template.fill(stamp, pose, [*rotation.rotate(back, twist[:3]), *rotation.rotate(back, twist[3:])])
+
+
+def _step_template():
+    slot = placeholder(schedule.LENGTH)
+    return Template(Float64MultiArray(data=messages.floats(slot)), [slot])

@@ -81,7 +81,7 @@ COLUMNS = (
     ("rms (N)", lambda pair: _plain(pair["rms_difference"])),
     ("rms (% of σ)", lambda pair: _plain(pair["rms_percent_of_std"])),
     ("peak (N)", lambda pair: _plain(pair["peak_difference"])),
-    ("lag (s)", lambda pair: _signed(pair["lag"])),
+    ("lag (s)", lambda pair: "–" if pair["lag"] is None else f"{pair['lag']:+.4f}"),
     ("correlation", lambda pair: "–" if pair["correlation"] is None else f"{pair['correlation']:.6f}"),
 )
 

@@ -23,7 +23,7 @@ def write(path, bases, comparison):
     moments = report.table(
         ["pair", "μ result (N)", "μ reference (N)", "σ result (N)", "σ reference (N)", "peak at (s)"],
         [
-            [row[0], *(f"{pair[key]:.6g}" for key in ("mean_result", "mean_reference", "std_result", "std_reference", "peak_difference_time"))]
+            [row[0], *(_six_digits(pair[key]) for key in ("mean_result", "mean_reference", "std_result", "std_reference", "peak_difference_time"))]
             for row, pair in zip(rows(comparison), comparison["pairs"])
         ],
     )
@@ -48,3 +48,7 @@ def write(path, bases, comparison):
             report.Section("Sample by sample", scatter),
         ],
     )
+
+
+def _six_digits(value):
+    return f"{value:.6g}" if abs(value) < 1e5 else f"{value:.0f}"

@@ -1,0 +1,133 @@
+"""`mooring replay`: recorded motion in, forces out, as fast as it goes."""
+
+import os
+import time
+
+from .arguments import add_model_arguments, load_mooring, positive
+from .console import UsageError, complain, print_json, reading
+from .files import check_output, same_file
+
+# The node's parameters when nobody says otherwise; 0 leaves the choice to the scene.
+DEFAULTS = {
+    "fidelity": "dynamic",
+    "solver": "auto",
+    "dt": 0.0,
+    "segments": 0,
+    "input": "odometry",
+    "convention": "enu",
+    "twist_frame": "child",
+    "wrench_frame": "world",
+    "scale": 1.0,
+    "density_ratio": 1.0,
+}
+MODEL = ("fidelity", "solver", "dt", "segments")
+AXES_AND_SCALE = ("input", "convention", "twist_frame", "wrench_frame", "scale", "density_ratio")
+
+
+def add_arguments(parser):
+    parser.add_argument("scene", metavar="SCENE", help="MoorDyn v2 input file")
+    parser.add_argument(
+        "motion",
+        metavar="MOTION",
+        help="CSV with a header t,x,y,z,roll,pitch,yaw (s, m, degrees) or t,x,y,z,qx,qy,qz,qw[,vx,vy,vz,wx,wy,wz]; MCAP with Odometry, or "
+        "PoseStamped and TwistStamped; a recording of the node replays bit for bit, with its own settings",
+    )
+    parser.add_argument("-o", "--output", metavar="OUT.mcap", required=True, help="recording to write")
+    parser.add_argument("--csv", metavar="OUT.csv", help="tensions and wrench as a table as well")
+    add_model_arguments(parser)
+    parser.add_argument(
+        "--rate",
+        type=positive,
+        metavar="HZ",
+        help="step and answer at this rate from the first sample on, with pose and twist from the cubic Hermite curve through the recorded "
+        "ones (default: at the recorded samples)",
+    )
+    parser.add_argument("--topic", metavar="NAME", help="which topic of an MCAP file is the motion (POSE,TWIST for a pair)")
+    parser.add_argument("--json", action="store_true", help="one JSON object on standard output, nothing else")
+
+
+def run(args):
+    check_output(args.output, args.scene, args.motion, suffix=".mcap")
+    if args.csv:
+        check_output(args.csv, args.scene, args.motion)
+        if same_file(args.csv, args.output):
+            raise UsageError(f"{args.csv}: both outputs have this name, expected two names")
+    motion = _motion(args)
+    settings = _settings(args, motion)
+    mooring = load_mooring(args.scene, **{name: settings[name] or None for name in MODEL})
+    for remark in (*mooring.scene.warnings, *motion.remarks):
+        complain(remark)
+    scene_is_recorded = _compare_scenes(args.scene, mooring.scene, motion)
+
+    from .replay_work import replay
+
+    started = time.perf_counter()
+    answers, simulated, identical = replay(args, mooring, motion, settings)
+    elapsed = time.perf_counter() - started
+    found = {
+        "output": args.output,
+        "csv": args.csv,
+        "motion": motion.source,
+        "answers": answers,
+        "simulated": simulated,
+        "elapsed": elapsed,
+        "real_time_factor": simulated / elapsed,
+        "settings": {name: settings[name] or None for name in MODEL},
+        "identical": {"same": identical.same, "total": identical.total} if identical else None,
+        "scene_is_recorded": scene_is_recorded,
+    }
+    print_json(found) if args.json else print(_text(found))
+    return 0
+
+
+def _motion(args):
+    from .motion_file import load_motion
+
+    with reading(args.motion):
+        motion = load_motion(args.motion, args.topic)
+    if args.rate and motion.schedule is not None:
+        raise UsageError(
+            f"{args.motion}: a recording of the node is replayed step by step, expected no --rate, or --topic NAME with it to take an input's motion alone"
+        )
+    return motion
+
+
+def _settings(args, motion):
+    """The node's parameters that this replay stands for: the recorded ones where there are any, and over them what the command line says."""
+    recorded = motion.parameters or {}
+    settings = {**DEFAULTS, **recorded}
+    if motion.schedule is None:
+        # The motion is at full scale in world axes now, whatever its source was; the answers are so, too.
+        settings.update({name: DEFAULTS[name] for name in AXES_AND_SCALE})
+    asked = {name: getattr(args, name) for name in MODEL if getattr(args, name) is not None}
+    if motion.schedule is not None and any(value != settings[name] for name, value in asked.items()):
+        complain(f"{args.motion}: recorded with {_listed(settings)}; with {_listed(asked)} the tensions will differ")
+    settings.update(asked, scene=os.fspath(args.scene))
+    return settings
+
+
+def _compare_scenes(path, scene, motion):
+    """Whether the scene is the one in the recording; None when there is none. Says so when not."""
+    if motion.scene is None:
+        return None
+    name, recorded = motion.scene
+    same = bytes(recorded) == scene.text.encode("utf-8")
+    if not same:
+        complain(f"{path}: differs from the scene in the recording {motion.path} ({name}); this one is used")
+    return same
+
+
+def _listed(settings):
+    return ", ".join(f"{name} {settings[name] or 'chosen from the scene'}" for name in MODEL if name in settings)
+
+
+def _text(found):
+    text = [
+        f"{found['output']}: {found['answers']} answers to {found['motion']}, {found['simulated']:.6g} s"
+        f" in {found['elapsed']:.3g} s ({found['real_time_factor']:.3g} times real time)"
+    ]
+    if found["csv"]:
+        text.append(f"{found['csv']}: the same as a table")
+    if found["identical"]:
+        text.append(f"identical: {found['identical']['same']} of {found['identical']['total']} recorded tension messages came out again, bit for bit")
+    return "\n".join(text)

@@ -1,0 +1,158 @@
+"""The work of `mooring replay`: run, write, stop cleanly."""
+
+import signal
+import threading
+
+import numpy as np
+
+from mooring_ros.mooring import MooringError
+from mooring_ros.motion import Adapter
+from mooring_ros.node.messages import Messages
+from mooring_ros.recording import schedule
+from mooring_ros.recording.reader import Recording
+
+from .console import ComputationFailed, Progress, UsageError
+from .identical import Identical
+from .replay_output import Answer, CsvOutput, McapOutput, ODOMETRY, PLATFORM_FRAME, WORLD_FRAME
+from .replay_run import run_motion, run_schedule
+from .resample import resample
+
+INPUT_TYPES = (ODOMETRY, "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/TwistStamped")
+
+
+def replay(args, mooring, motion, settings):
+    """Run the motion through the mooring and write the outputs that args name.
+
+    settings: the node's parameters that hold. Returns (answers, simulated s, Identical or None). Whatever ends it, the outputs are closed and readable.
+    Raises ComputationFailed, UsageError, KeyboardInterrupt.
+    """
+    adapter = Adapter(**{name: settings[name] for name in ("twist_frame", "convention", "wrench_frame", "scale", "density_ratio")})
+    world, platform = settings.get("world_frame") or WORLD_FRAME, settings.get("platform_frame") or PLATFORM_FRAME
+    composed = Messages(mooring, adapter, world if adapter.wrench_frame == "world" else platform, world)
+    identical = inputs = None
+    if motion.schedule is not None:
+        recording = Recording(motion.path)
+        identical = Identical(recording.messages())
+        inputs = recording.messages([topic for topic, (kind, _) in recording.topics().items() if kind in INPUT_TYPES])
+        steps = run_schedule(mooring, motion.schedule, motion.schedule_stamps, adapter.time_factor)
+    else:
+        steps = run_motion(mooring, *_samples(args, motion))
+    answers, first, last = 0, None, None
+    with Outputs(args, mooring, settings) as outputs, Stop() as stop, Progress("replay", float(np.ptp(motion.times))) as progress:
+        try:
+            for done in steps:
+                outputs.write_inputs(inputs, done, mooring)
+                if done.kind != schedule.RELEASE:
+                    answer = _answer(mooring, composed, adapter, done)
+                    outputs.write(answer, mooring, composed)
+                    if identical:
+                        identical.add(answer.stamp, answer.anchor_tension, answer.fairlead_tension)
+                    answers += 1
+                first, last = done.time if first is None else first, done.time
+                progress.update(last - first)
+                if stop.asked:
+                    raise KeyboardInterrupt
+            outputs.write_inputs(inputs, None, mooring)
+        except MooringError as error:
+            raise ComputationFailed(_after(motion, last, error)) from error
+        except ValueError as error:
+            raise UsageError(_after(motion, last, error)) from error
+    return answers, last - first, identical if identical and identical.total else None
+
+
+class Outputs:
+    """The files of a replay; leaving the context closes them, whatever happened."""
+
+    def __init__(self, args, mooring, settings):
+        self._mcap = McapOutput(args.output, settings, mooring.scene, mooring.coupled_names)
+        try:
+            self._csv = CsvOutput(args.csv, mooring.line_names) if args.csv else None
+        except UsageError:
+            self._mcap.close()
+            raise
+        self._next_input = None
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        try:
+            if self._csv:
+                self._csv.close()
+        except OSError as error:
+            raise ComputationFailed(f"{error.filename}: {error.strerror}") from error
+        finally:
+            self._mcap.close()
+
+    def write(self, answer, mooring, composed):
+        self._mcap.write(answer, mooring, composed)
+        if self._csv:
+            try:
+                self._csv.write(answer)
+            except OSError as error:
+                raise ComputationFailed(f"{error.filename}: {error.strerror}") from error
+
+    def write_inputs(self, inputs, done, mooring):
+        """What led to the answer: the recording's own messages up to its stamp (all that are left for None), or the motion; and the step."""
+        if inputs is None:
+            if done is not None:
+                self._mcap.write_motion(done.stamp, mooring.pose, mooring.twist)
+        else:
+            while (entry := self._next_input or next(inputs, None)) is not None:
+                self._next_input = entry
+                if done is not None and entry.log_time > done.stamp:
+                    break
+                self._mcap.write_entry(entry)
+                self._next_input = None
+        if done is not None:
+            self._mcap.write_step(done.stamp, done.record)
+
+
+class Stop:
+    """Notes Ctrl-C instead of being torn apart by it; a second one tears."""
+
+    def __init__(self):
+        self.asked = False
+        self._before = None
+
+    def __enter__(self):
+        if threading.current_thread() is threading.main_thread():
+            self._before = signal.signal(signal.SIGINT, self._ask)
+        return self
+
+    def __exit__(self, *_):
+        if self._before is not None:
+            signal.signal(signal.SIGINT, self._before)
+
+    def _ask(self, *_):
+        if self.asked:
+            raise KeyboardInterrupt
+        self.asked = True
+
+
+def _samples(args, motion):
+    """times, poses, twists, stamps of the steps."""
+    if args.rate is None:
+        return motion.times, motion.poses, motion.twists, motion.stamps
+    times, poses, twists = resample(motion.times, motion.poses, motion.twists, args.rate)
+    # Between recorded stamps, so that a clock at another scale keeps its pace.
+    whole = np.searchsorted(motion.times, times, side="right").clip(1, len(motion.times) - 1) - 1
+    share = (times - motion.times[whole]) / np.diff(motion.times)[whole]
+    return times, poses, twists, motion.stamps[whole] + np.rint(share * np.diff(motion.stamps)[whole]).astype(np.int64)
+
+
+def _answer(mooring, composed, adapter, done):
+    wrenches = composed.wrenches(np.vstack((mooring.wrench, mooring.coupled_wrenches)), mooring.pose)
+    return Answer(
+        stamp=done.stamp,
+        time=done.time,
+        wrench=wrenches[0],
+        coupled_wrenches=wrenches[1:],
+        fairlead_tension=mooring.fairlead_tension * adapter.force_factor,
+        anchor_tension=mooring.anchor_tension * adapter.force_factor,
+    )
+
+
+def _after(motion, last, error):
+    where = "while settling at the first sample" if last is None else f"after the answer at {last:.6g} s"
+    return f"{motion.path}: {where}: {error}"
