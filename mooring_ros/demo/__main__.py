@@ -22,10 +22,9 @@ from mooring_ros.scene import SceneError, load_scene
 
 def main(argv=None):
     """Entry point; returns the exit status."""
-    received = []
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda number, _: received.append(number))
     options = _parser().parse_args(argv)
+    received = []
+    before = {number: signal.signal(number, lambda number, _: received.append(number)) for number in (signal.SIGINT, signal.SIGTERM)}
     folder = None
     try:
         scene = load_scene(options.scene)
@@ -46,6 +45,9 @@ def main(argv=None):
     except ValueError as error:
         _complain(str(error))
         return 2 if folder is None else 1
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 def _demo(options, scene, folder, interrupted):
@@ -56,7 +58,7 @@ def _demo(options, scene, folder, interrupted):
     start = run.summary["start_stamp"]
     history = read_history(run.recording, start)
     _say("replaying the recording offline")
-    comparison = replay.compare(history, replay.replay(options.scene, run.recording, folder, variables, interrupted), start)
+    comparison = replay.compare(history.answers, replay.replay(options.scene, run.recording, folder, variables, interrupted), start)
     waves = Waves(sea_state(options), scene.environment.depth)
     report = folder / "report.html"
     demo_report.write(report, scene, waves, history, run.summary, comparison)
@@ -66,7 +68,7 @@ def _demo(options, scene, folder, interrupted):
 
 
 def _results(history, summary, comparison):
-    tensions = table(["fairlead tension (kN)", "mean", "std", "least", "greatest"], numbers.tension_rows(history.line_names, history.fairlead_tension))
+    tensions = table(["fairlead tension (kN)", "mean", "std", "least", "greatest"], numbers.tension_rows(history.answers))
     motions = table(["motion", "mean", "least", "greatest"], numbers.motion_rows(history.poses, ("surge", "heave", "pitch")))
     speed = f"{numbers.real_time_factor(summary):.1f} times real time, lost steps: {summary['lost']} of {summary['sent']}"
     return f"{tensions}\n\n{motions}\n\n{speed}\nreplayed offline: {numbers.replay_words(comparison)}"

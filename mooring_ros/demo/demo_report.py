@@ -1,5 +1,7 @@
 """The demo's report: what moved, what pulled, how it ran."""
 
+import math
+
 from mooring_ros.demo.figures import elevation_figure, extremes_figure, round_trip_figure, wrench_figure
 from mooring_ros.demo.numbers import motion_rows, real_time_factor, replay_words, run_rows, tension_rows
 from mooring_ros.offline.plots import line_shapes_figure, motion_figure, tension_figure
@@ -29,7 +31,10 @@ def write(path, scene, waves, history, summary, comparison):
 def _overview(scene, waves, history, summary, comparison):
     sea = waves.sea
     state = (
-        f"waves of {sea.height:g} m significant height and {sea.period:g} s peak period (JONSWAP, seed {sea.seed})" if sea.height else "still water"
+        f"waves of {sea.height:g} m significant height and {sea.period:g} s peak period that go to {math.degrees(sea.heading):g}° from the x axis "
+        f"(JONSWAP, seed {sea.seed})"
+        if sea.height
+        else "still water"
     )
     text = (
         f"A VolturnUS-S-like floater in {state}, held by {_counted(len(scene.lines), 'line')} in {scene.environment.depth:g} m of water. "
@@ -41,7 +46,7 @@ def _overview(scene, waves, history, summary, comparison):
         "In short",
         paragraph(text)
         + paragraph(replayed)
-        + table(["fairlead tension (kN)", "mean", "std", "least", "greatest"], tension_rows(history.line_names, history.fairlead_tension))
+        + table(["fairlead tension (kN)", "mean", "std", "least", "greatest"], tension_rows(history.answers))
         + table(["motion", "mean", "least", "greatest"], motion_rows(history.poses)),
     )
 
@@ -56,24 +61,24 @@ def _motion(waves, history):
 
 
 def _tensions(history):
-    times, names = history.answer_times, history.line_names
-    fairlead = figure(tension_figure(times, dict(zip(names, history.fairlead_tension.T))), "Tension at the fairleads, as the node published it.")
-    anchor = figure(tension_figure(times, dict(zip(names, history.anchor_tension.T))), "Tension at the anchors.")
+    times, names, answers = history.answers.times, history.answers.line_names, history.answers
+    fairlead = figure(tension_figure(times, dict(zip(names, answers.fairlead_tension.T))), "Tension at the fairleads, as the node published it.")
+    anchor = figure(tension_figure(times, dict(zip(names, answers.anchor_tension.T))), "Tension at the anchors.")
     return Section("Tensions", fairlead + anchor)
 
 
 def _wrench(history):
-    picture = wrench_figure(history.answer_times, history.wrenches)
+    picture = wrench_figure(history.answers.times, history.answers.wrenches)
     return Section("Mooring wrench", figure(picture, "Force and moment of the moorings on the platform, about its reference point, world axes."))
 
 
 def _shapes(scene, history):
-    tension = history.fairlead_tension
+    times, tension, names = history.answers.times, history.answers.fairlead_tension, history.answers.line_names
     loaded = tension.max(axis=0).argmax()
-    high = history.shape_at(history.answer_times[tension[:, loaded].argmax()])
-    low = history.shape_at(history.answer_times[tension[:, loaded].argmin()])
+    high = history.shape_at(times[tension[:, loaded].argmax()])
+    low = history.shape_at(times[tension[:, loaded].argmin()])
     start = history.shapes[0]
-    name = history.line_names[loaded]
+    name = names[loaded]
     moments = {
         f"start ({start[0]:.1f} s)": start[1],
         f"{name} at its greatest tension ({high[0]:.1f} s)": high[1],
@@ -83,7 +88,7 @@ def _shapes(scene, history):
     return Section(
         "Line shapes",
         figure(line_shapes_figure(high[1], depth), f"All lines when {name} pulls most, at {high[0]:.1f} s.")
-        + figure(extremes_figure(history.line_names, moments, depth), "Each line in its vertical plane at three moments; the dots are the fairleads."),
+        + figure(extremes_figure(names, moments, depth), "Each line in its vertical plane, and its tension, at three moments; the dots are the fairleads."),
     )
 
 

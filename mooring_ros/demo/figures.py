@@ -7,6 +7,12 @@ from mooring_ros.offline.plots import COLOURS, force_unit
 
 _INK, _FAINT, _WATER, _BED = "#1c2530", "#51606f", "#7fb3d5", "#a58e6b"
 _WIDTH = 9.6  # inches
+_MOMENT_STYLES = (
+    {"color": _FAINT, "linestyle": "--", "linewidth": 1.3},
+    {"color": COLOURS[1], "linewidth": 1.4},
+    {"color": COLOURS[2], "linewidth": 1.4},
+    {"color": COLOURS[3], "linewidth": 1.4},
+)
 
 
 def elevation_figure(times, elevation):
@@ -41,35 +47,40 @@ def wrench_figure(times, wrenches):
 
 
 def extremes_figure(names, moments, depth):
-    """Each line in its own vertical plane at several moments.
+    """Each line at several moments: in its own vertical plane, and its tension from the anchor to the fairlead.
 
     names: line names; moments: dict of label -> dict of line name -> (positions (n, 3) m, tension (n,) N), the first one the reference
     whose anchor and fairlead span the plane; depth: m.
     """
-    figure = Figure(figsize=(_WIDTH, 2.15 * len(names) + 0.5), layout="constrained")
-    axes = figure.subplots(len(names), 1, squeeze=False, sharex=True)[:, 0]
+    figure = Figure(figsize=(_WIDTH, 1.9 * len(names) + 0.6), layout="constrained")
+    axes = figure.subplots(len(names), 2, squeeze=False, sharex="col", width_ratios=(1.7, 1))
     reference = next(iter(moments.values()))
-    for axis, name in zip(axes, names):
-        positions = reference[name][0]
-        fairlead = positions[np.argmax(positions[:, 2])]
-        anchor = positions[np.argmax(np.linalg.norm(positions - fairlead, axis=1))]
-        away = (anchor - fairlead)[:2]
-        away = away / (np.linalg.norm(away) or 1.0)
-        for index, (label, shapes) in enumerate(moments.items()):
-            nodes = shapes[name][0]
-            distance = (nodes[:, :2] - fairlead[:2]) @ away
-            colour = (_FAINT, *COLOURS[1:])[index]
-            axis.plot(distance, nodes[:, 2], color=colour, linewidth=1.5, label=label, linestyle="--" if index == 0 else "-")
+    divisor, unit = force_unit(np.concatenate([tension for shapes in moments.values() for _, tension in shapes.values()]))
+    for (side, along), name in zip(axes, names):
+        start = reference[name][0]
+        fairlead = start[0] if start[0, 2] > start[-1, 2] else start[-1]
+        heading = _heading(start) * (1.0 if fairlead is start[0] else -1.0)
+        for (label, shapes), style in zip(moments.items(), _MOMENT_STYLES):
+            nodes, tension = shapes[name]
+            distance = (nodes[:, :2] - fairlead[:2]) @ heading
+            side.plot(distance, nodes[:, 2], label=label, **style)
             highest = np.argmax(nodes[:, 2])
-            axis.plot(distance[highest], nodes[highest, 2], "o", color=colour, markersize=4)
-        axis.axhspan(-1.12 * depth, -depth, color=_BED, alpha=0.35, linewidth=0)
-        axis.axhline(0.0, color=_WATER, linewidth=1.2)
-        axis.set(ylabel="z (m)", ylim=(-1.12 * depth, 0.1 * depth))
-        _plain(axis, name)
+            side.plot(distance[highest], nodes[highest, 2], "o", color=style["color"], markersize=4)
+            order = slice(None) if nodes[0, 2] < nodes[-1, 2] else slice(None, None, -1)
+            arc = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(nodes[order], axis=0), axis=1))])
+            along.plot(arc, tension[order] / divisor, **style)
+        side.axhspan(-1.12 * depth, -depth, color=_BED, alpha=0.35, linewidth=0)
+        side.axhline(0.0, color=_WATER, linewidth=1.2)
+        side.set(ylabel="z (m)", ylim=(-1.12 * depth, 0.1 * depth))
+        along.set(ylabel=f"tension ({unit})")
+        along.margins(x=0.0)
+        _plain(side, name)
+        _plain(along)
     reach = max(np.ptp(nodes[:, :2] @ _heading(nodes)) for nodes, _ in reference.values())
     suspended = max(_suspended(nodes, depth) for shapes in moments.values() for nodes, _ in shapes.values())
-    axes[-1].set(xlabel="distance from the fairlead at the start, towards the anchor (m)", xlim=(-0.03 * reach, min(reach, 1.2 * suspended)))
-    handles, labels = axes[0].get_legend_handles_labels()
+    axes[-1, 0].set(xlabel="distance from the fairlead at the start (m)", xlim=(-0.05 * reach, min(reach, 1.3 * suspended)))
+    axes[-1, 1].set(xlabel="along the line, from the anchor (m)")
+    handles, labels = axes[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper right", ncols=len(labels), frameon=False, fontsize=8)
     return figure
 

@@ -11,27 +11,34 @@ from std_msgs.msg import Float64MultiArray
 
 from mooring_ros.recording.reader import Recording
 
-_TYPES = {
-    "/platform/odom": Odometry, "/mooring/wrench": WrenchStamped, "/mooring/lines": JointState,
-    "/mooring/line_tensions": Float64MultiArray, "/mooring/nodes": PointCloud2,
-}  # fmt: skip
+_MOTION, _WRENCH, _LINES, _TENSIONS, _NODES = (
+    "/platform/odom", "/mooring/wrench", "/mooring/lines", "/mooring/line_tensions", "/mooring/nodes",
+)  # fmt: skip
+_TYPES = {_MOTION: Odometry, _WRENCH: WrenchStamped, _LINES: JointState, _TENSIONS: Float64MultiArray, _NODES: PointCloud2}
+
+
+@dataclass(frozen=True)
+class Answers:
+    """What the moorings answered. times (n,) s; wrenches (n, 6) N, N·m; line_names; fairlead_tension, anchor_tension (n, lines) N."""
+
+    times: np.ndarray
+    wrenches: np.ndarray
+    line_names: tuple
+    fairlead_tension: np.ndarray
+    anchor_tension: np.ndarray
 
 
 @dataclass(frozen=True)
 class History:
     """A recorded run; times in s from the start of the coupled motion.
 
-    times (n,) s, poses (n, 7): as sent. answer_times (m,) s, wrenches (m, 6) N, N·m, fairlead_tension, anchor_tension (m, lines) N: as answered.
+    times (n,) s, poses (n, 7): the motion as sent. answers: Answers.
     shapes: list of (time (s), dict of line name -> (positions (nodes, 3) m, tension (nodes,) N)).
     """
 
     times: np.ndarray
     poses: np.ndarray
-    answer_times: np.ndarray
-    wrenches: np.ndarray
-    line_names: tuple
-    fairlead_tension: np.ndarray
-    anchor_tension: np.ndarray
+    answers: Answers
     shapes: list
 
     def shape_at(self, time):
@@ -44,31 +51,46 @@ def read_history(path, start_stamp):
 
     Raises RecordingError when the file cannot be read, ValueError when it does not hold a whole run.
     """
-    found = {topic: [] for topic in _TYPES}
-    for entry in Recording(path).messages(set(_TYPES)):
-        found[entry.topic].append(deserialize_message(entry.data, _TYPES[entry.topic]))
+    found = _read(path, (_MOTION, _WRENCH, _LINES, _TENSIONS, _NODES), start_stamp)
+    return History(
+        times=np.array([_time(message, start_stamp) for message in found[_MOTION]]),
+        poses=np.array([_pose(message) for message in found[_MOTION]]),
+        answers=_answers(path, found, start_stamp),
+        shapes=[(_time(cloud, start_stamp), _shapes(cloud, found[_LINES][0].name)) for cloud in found[_NODES]],
+    )
+
+
+def read_answers(path, start_stamp):
+    """The Answers alone, also of a replay's recording; as read_history otherwise."""
+    return _answers(path, _read(path, (_WRENCH, _LINES, _TENSIONS), start_stamp), start_stamp)
+
+
+def _read(path, topics, start_stamp):
+    """Dict of topic -> messages from start_stamp on; none is empty."""
+    found = {topic: [] for topic in topics}
+    for entry in Recording(path).messages(set(topics)):
+        message = deserialize_message(entry.data, _TYPES[entry.topic])
+        # A message without a header goes by the time of the log, which is that of its input.
+        if (_stamp(message) if hasattr(message, "header") else entry.log_time) >= start_stamp:
+            found[entry.topic].append(message)
     for topic, messages in found.items():
         if not messages:
-            raise ValueError(f"{path}: no message of {topic}, expected a recorded run")
-    names = tuple(found["/mooring/lines"][0].name)
-    sent = [message for message in found["/platform/odom"] if _stamp(message) >= start_stamp]
-    wrenches, lines, tensions = found["/mooring/wrench"], found["/mooring/lines"], found["/mooring/line_tensions"]
+            raise ValueError(f"{path}: no message of {topic} in the run, expected a recorded run")
+    return found
+
+
+def _answers(path, found, start_stamp):
+    wrenches, lines, tensions = found[_WRENCH], found[_LINES], found[_TENSIONS]
     if not len(wrenches) == len(lines) == len(tensions):
-        raise ValueError(f"{path}: {len(wrenches)} wrenches, {len(lines)} lines and {len(tensions)} line_tensions, expected as many of each")
-    answers = [answer for answer in zip(wrenches, lines, tensions) if _stamp(answer[0]) >= start_stamp]
-    if not sent or not answers:
-        raise ValueError(f"{path}: no motion after the start, expected a recorded run")
-    clouds = found["/mooring/nodes"]
-    clouds = [cloud for cloud in clouds if _stamp(cloud) >= start_stamp] or clouds[-1:]
-    return History(
-        times=np.array([_time(message, start_stamp) for message in sent]),
-        poses=np.array([_pose(message) for message in sent]),
-        answer_times=np.array([_time(wrench, start_stamp) for wrench, _, _ in answers]),
-        wrenches=np.array([_wrench(wrench) for wrench, _, _ in answers]),
+        counts = f"{len(wrenches)} wrenches, {len(lines)} lines and {len(tensions)} line_tensions"
+        raise ValueError(f"{path}: {counts}, expected as many of each")
+    names = tuple(lines[0].name)
+    return Answers(
+        times=np.array([_time(wrench, start_stamp) for wrench in wrenches]),
+        wrenches=np.array([_wrench(wrench) for wrench in wrenches]),
         line_names=names,
-        fairlead_tension=np.array([line.effort for _, line, _ in answers]),
-        anchor_tension=np.array([tension.data for _, _, tension in answers]).reshape(len(answers), len(names), 2)[:, :, 0],
-        shapes=[(_time(cloud, start_stamp), _shapes(cloud, names)) for cloud in clouds],
+        fairlead_tension=np.array([line.effort for line in lines]),
+        anchor_tension=np.array([tension.data for tension in tensions]).reshape(len(tensions), len(names), 2)[:, :, 0],
     )
 
 

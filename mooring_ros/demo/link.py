@@ -9,6 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from geometry_msgs.msg import WrenchStamped
+from lifecycle_msgs.msg import State
+from lifecycle_msgs.srv import GetState
 from nav_msgs.msg import Odometry
 from rclpy.experimental.events_executor import EventsExecutor
 from rclpy.qos import QoSProfile
@@ -17,7 +19,9 @@ from mooring_ros.demo.floater import rotation_matrix
 
 ODOMETRY_TOPIC = "platform/odom"
 WRENCH_TOPIC = "mooring/wrench"
+STATE_SERVICE = "mooring/get_state"
 _POLL = 0.1  # s, how long a wait may go on before it looks whether to stop
+_LONGEST_UNCONFIGURED = 3.0  # s; while it configures, the node does not say its state
 
 
 class LinkError(Exception):
@@ -57,12 +61,16 @@ class MooringLink:
         self._given_up = set()  # stamps
 
     def wait_for_mooring(self, timeout):
-        """Wait until the node listens and speaks. Raises LinkError after timeout (s), Stopped."""
+        """Wait until the node listens and speaks. Raises LinkError after timeout (s), or when it stays unconfigured; Stopped."""
         end = time.monotonic() + timeout
+        state = _NodeState(self._node)
         missing = f"nobody listens to {self._publisher.topic_name} and speaks on {self._subscription.topic_name}"
         while not (self._publisher.get_subscription_count() and self._subscription.get_publisher_count()):
             self._check(end, missing, timeout)
             self._executor.spin_once(timeout_sec=_POLL)
+            if state.unconfigured_for() > _LONGEST_UNCONFIGURED:
+                raise LinkError("the mooring node is there, but unconfigured, expected active; its log says why")
+        state.close()
 
     def greet(self, stamps, pose, timeout, patience=1.0):
         """Send the pose (7,) at rest, at one stamp (ns) of the iterator after the other, until one is answered.
@@ -142,3 +150,26 @@ class MooringLink:
             raise Stopped
         if time.monotonic() >= end:
             raise LinkError(f"{missing}, waited {timeout:g} s")
+
+
+class _NodeState:
+    """Asks a lifecycle node for its state again and again; one that has no such service is never unconfigured."""
+
+    def __init__(self, node):
+        self._node = node
+        self._client = node.create_client(GetState, STATE_SERVICE)
+        self._question = None
+        self._since = None
+
+    def unconfigured_for(self):
+        """For how long (s) every answer has been `unconfigured`."""
+        if self._question is None and self._client.service_is_ready():
+            self._question = self._client.call_async(GetState.Request())
+        elif self._question is not None and self._question.done():
+            unconfigured = self._question.result().current_state.id == State.PRIMARY_STATE_UNCONFIGURED
+            self._since = (self._since or time.monotonic()) if unconfigured else None
+            self._question = None
+        return time.monotonic() - self._since if self._since else 0.0
+
+    def close(self):
+        self._node.destroy_client(self._client)

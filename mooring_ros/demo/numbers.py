@@ -14,12 +14,12 @@ def motions(poses):
     return np.column_stack([np.asarray(poses, float)[:, :3], np.degrees(np.stack([roll, pitch, yaw], axis=1))])
 
 
-def tension_rows(names, tension):
-    """[name, mean, standard deviation, least, greatest] of each line's tension (n, lines) N, in kN as text."""
-    kilo = np.asarray(tension) / 1e3
+def tension_rows(answers):
+    """[name, mean, standard deviation, least, greatest] of each line's fairlead tension in kN, as text. answers: history.Answers."""
+    kilo = answers.fairlead_tension / 1e3
     return [
         [name, *(f"{value:.1f}" for value in (column.mean(), column.std(), column.min(), column.max()))]
-        for name, column in zip(names, kilo.T)
+        for name, column in zip(answers.line_names, kilo.T)
     ]
 
 
@@ -29,7 +29,7 @@ def motion_rows(poses, which=MOTIONS):
     for name, column in zip(MOTIONS, motions(poses).T):
         if name in which:
             unit = "m" if name in MOTIONS[:3] else "°"
-            rows.append([f"{name} ({unit})", *(f"{value:.2f}" for value in (column.mean(), column.min(), column.max()))])
+            rows.append([f"{name} ({unit})", *(f"{value:z.2f}" for value in (column.mean(), column.min(), column.max()))])
     return rows
 
 

@@ -6,6 +6,8 @@ import math
 from mooring_ros.demo.waves import SeaState
 from mooring_ros.offline.arguments import positive
 
+HEADING = 20.0  # degrees; off the axes of symmetry, so that no motion stays at rest
+
 
 def add_sea_arguments(parser):
     """--duration, --rate and the sea: --wave-height, --wave-period, --wave-heading, --seed, --ramp."""
@@ -15,7 +17,7 @@ def add_sea_arguments(parser):
     parser.add_argument("--seed", type=not_negative_int, default=sea.seed, metavar="N", help=f"seed of the waves (default: {sea.seed})")
     parser.add_argument("--wave-height", type=not_negative, default=sea.height, metavar="M", help=f"significant wave height in m, 0 for still water (default: {sea.height:g})")
     parser.add_argument("--wave-period", type=positive, default=sea.period, metavar="S", help=f"peak period in s (default: {sea.period:g})")
-    parser.add_argument("--wave-heading", type=finite, default=0.0, metavar="DEG", help="where the waves go, from the x axis, in degrees (default: 0)")
+    parser.add_argument("--wave-heading", type=finite, default=HEADING, metavar="DEG", help=f"where the waves go, from the x axis, in degrees (default: {HEADING:g})")
     parser.add_argument("--ramp", type=not_negative, default=sea.ramp, metavar="S", help=f"time over which the waves grow, in s (default: {sea.ramp:g})")
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mooring_ros.demo.history import read_history
+from mooring_ros.demo.history import read_answers
 from mooring_ros.demo.processes import Child
 
 
@@ -41,15 +41,11 @@ def replay(scene, recording, folder, variables, interrupted):
 
 
 def compare(recorded, replayed_path, start_stamp):
-    """The Comparison of a History with the replayed file; start_stamp: ns, as in read_history."""
-    replayed = read_history(replayed_path, start_stamp)
-    pairs = [
-        (recorded.fairlead_tension, replayed.fairlead_tension),
-        (recorded.anchor_tension, replayed.anchor_tension),
-        (recorded.wrenches, replayed.wrenches),
-        (recorded.answer_times, replayed.answer_times),
-    ]
+    """The Comparison of recorded Answers with the replayed file; start_stamp: ns, as in read_answers."""
+    replayed = read_answers(replayed_path, start_stamp)
+    names = ("times", "wrenches", "fairlead_tension", "anchor_tension")
+    pairs = [(getattr(recorded, name), getattr(replayed, name)) for name in names]
     if any(first.shape != second.shape for first, second in pairs):
-        return Comparison(len(recorded.answer_times), False, np.inf)
+        return Comparison(len(recorded.times), False, np.inf)
     identical = all(first.tobytes() == second.tobytes() for first, second in pairs)
-    return Comparison(len(recorded.answer_times), identical, max(float(np.abs(first - second).max()) for first, second in pairs))
+    return Comparison(len(recorded.times), identical, max(float(np.abs(first - second).max()) for first, second in pairs))

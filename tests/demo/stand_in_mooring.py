@@ -5,6 +5,8 @@ import argparse
 import numpy as np
 import rclpy
 from geometry_msgs.msg import WrenchStamped
+from lifecycle_msgs.msg import State
+from lifecycle_msgs.srv import GetState
 from nav_msgs.msg import Odometry
 from rclpy.executors import ExternalShutdownException
 
@@ -14,9 +16,13 @@ def main():
     parser.add_argument("--drop", type=int, default=-1)
     parser.add_argument("--double", type=int, default=-1)
     parser.add_argument("--silent-after", type=int, default=10**9)
+    parser.add_argument("--unconfigured", action="store_true")
     options = parser.parse_args()
     rclpy.init()
     node = rclpy.create_node("mooring")
+    if options.unconfigured:
+        node.create_service(GetState, "~/get_state", lambda _, reply: _state(reply))
+        return _spin(node)
     publisher = node.create_publisher(WrenchStamped, "~/wrench", 10)
     stamps = []
 
@@ -34,6 +40,15 @@ def main():
             publisher.publish(reply)
 
     node.create_subscription(Odometry, "platform/odom", answer, 10)
+    _spin(node)
+
+
+def _state(reply):
+    reply.current_state.id, reply.current_state.label = State.PRIMARY_STATE_UNCONFIGURED, "unconfigured"
+    return reply
+
+
+def _spin(node):
     try:
         rclpy.spin(node)
     except (KeyboardInterrupt, ExternalShutdownException):

@@ -74,6 +74,13 @@ def test_without_a_mooring_node_it_says_what_it_waited_for(environment):
     assert "platform/odom" in done.stderr and "mooring/wrench" in done.stderr and "Traceback" not in done.stderr
 
 
+def test_a_node_that_stays_unconfigured_is_named_long_before_the_time_out(environment):
+    with stand_in(environment, "--unconfigured"):
+        done = run(environment, "--timeout", "55")
+    assert done.returncode == 1
+    assert "unconfigured, expected active" in done.stderr and "Traceback" not in done.stderr
+
+
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_it_stops_at_once_on_a_signal(environment, number):
     process = subprocess.Popen(simulator("--timeout", "60"), env=environment, stderr=subprocess.PIPE, text=True)
