@@ -1,6 +1,7 @@
 """`mooring recover`: a recording that was cut off, readable by ordinary readers again."""
 
 import sys
+import time
 
 from .console import print_json, reading
 
@@ -15,8 +16,8 @@ def add_arguments(parser):
 def run(args):
     from mooring_ros.recording.recover import recover
 
-    with reading(args.file):
-        found = recover(args.file, args.output)
+    with reading(args.file), _Progress() as progress:
+        found = recover(args.file, args.output, progress)
     for remark in found.cut + found.damage:
         print(remark, file=sys.stderr)
     if args.json:
@@ -28,6 +29,28 @@ def run(args):
         print(f"{found.path}: {found.messages} messages on {len(found.topics)} topics, {_duration(found):.3f} s, "
               f"{found.attachments} attachments")
     return 0
+
+
+class _Progress:
+    """A line on standard error that says how much of a file has been read; silent when that is no terminal."""
+
+    def __init__(self):
+        self._shown = sys.stderr.isatty()
+        self._next = time.monotonic() + 0.2
+
+    def __enter__(self):
+        return self
+
+    def __call__(self, done, total):
+        if self._shown and time.monotonic() > self._next:
+            self._next = time.monotonic() + 0.2
+            sys.stderr.write(f"\r\x1b[Krecover: {100 * done / total:.0f} % of {total / 1e6:.1f} MB")
+            sys.stderr.flush()
+
+    def __exit__(self, *_):
+        if self._shown:
+            sys.stderr.write("\r\x1b[K")
+            sys.stderr.flush()
 
 
 def _duration(found):

@@ -41,12 +41,12 @@ class Damage:
     reason: str
 
 
-def read_records(path, chunks=True):
+def read_records(path, chunks=True, progress=None):
     """Yield Header, Schema, Channel, Message, Attachment and Metadata records of the data section, in order.
 
     A chunk is opened and its records are yielded; with `chunks` false, chunks are passed over without being read. A file that
     ends too early yields everything whole, also the whole messages of a chunk that is cut, and then one Cut.
-    What is damaged inside yields a Damage in its place. Raises RecordingError for a file that is no MCAP file.
+    What is damaged inside yields a Damage in its place. progress(bytes read, bytes in all) is called now and then. Raises RecordingError for a file that is no MCAP file.
     """
     with open_file(path) as file:
         size = os.fstat(file.fileno()).st_size
@@ -54,6 +54,8 @@ def read_records(path, chunks=True):
         ended = False
         while True:
             offset = file.tell()
+            if progress:
+                progress(offset, size)
             head = file.read(RECORD_HEAD.size)
             if len(head) < RECORD_HEAD.size:
                 yield Cut(offset, 'the file ends inside a record' if head else 'the file ends without a footer')

@@ -30,12 +30,12 @@ class Recovered:
     end: int | None = None
 
 
-def recover(path_in, path_out):
+def recover(path_in, path_out, progress=None):
     """Rewrite a recording so that every reader reads it, with everything in it that can be read.
 
     path_in: an MCAP file or a bag folder. path_out: `NAME.mcap` for a single file (a bag of several files becomes one), else a
     folder with metadata.yaml; it must not exist. A recording that has nothing wrong is copied.
-    Returns a Recovered. Raises RecordingError for bad input or when the output cannot be written; the output is removed then.
+    progress(bytes read, bytes in all) is called now and then, for each file anew. Returns a Recovered. Raises RecordingError for bad input or when the output cannot be written; the output is removed then.
     """
     path_out = os.fspath(path_out)
     sources = bag_files(path_in)
@@ -50,7 +50,7 @@ def recover(path_in, path_out):
     result = Recovered(path_out)
     try:
         os.makedirs(os.path.dirname(os.path.abspath(path_out)) if single else path_out, exist_ok=True)
-        files = [_rewrite(group, target, result) for group, target in jobs]
+        files = [_rewrite(group, target, result, progress) for group, target in jobs]
         result.copied = not result.cut and not result.damage and all(len(group) == 1 for group, _ in jobs)
         if result.copied:
             for (source,), target in jobs:
@@ -74,14 +74,14 @@ def _remove(path):
         os.remove(path)
 
 
-def _rewrite(sources, target, result):
+def _rewrite(sources, target, result, progress):
     """Everything readable of the source files into one new file. Returns its bag_metadata.BagFile."""
     bag = bag_metadata.BagFile(os.path.basename(target))
     with open(target, 'xb') as stream:
         copy = _Copy(Writer(stream, chunk_size=256 * 1024, compression=CompressionType.ZSTD), bag, result)
         copy.writer.start(profile=Profile.ROS2, library=library_name())
         for source in sources:
-            copy.take(source)
+            copy.take(source, progress)
         copy.writer.finish()
     return bag
 
@@ -97,12 +97,12 @@ class _Copy:
         self._channels = {}         # (topic, encoding, schema, metadata) -> new id
         self._topics = {}           # new channel id -> bag_metadata.Topic
 
-    def take(self, source):
+    def take(self, source, progress):
         schemas, channels, headed = {0: (0, '')}, {}, False
         summary = read_summary(source)
         # What is described again at the end stands in for a description in a damaged chunk.
         described = [*summary.schemas.values(), *summary.channels.values()] if summary else []
-        for record in itertools.chain(described, read_records(source)):
+        for record in itertools.chain(described, read_records(source, progress=progress)):
             if isinstance(record, Message):
                 self._message(source, record, channels)
             elif isinstance(record, Header):

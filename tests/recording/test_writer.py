@@ -115,6 +115,12 @@ def test_parameters_of_numpy_come_back_as_numbers(tmp_path):
     assert Recording(writer.path).parameters == {'a': 0.1, 'b': [0, 1, 2], 'c': str(tmp_path), 'd': True, 'e': 'text'}
 
 
+def test_a_scene_given_as_text_is_kept_as_its_bytes(tmp_path):
+    with RecordingWriter(tmp_path / 'run.mcap', {}, 'a/b/chain.txt', 'Ketten für Ålesund\r\n') as writer:
+        pass
+    assert Recording(writer.path).scene == ('chain.txt', 'Ketten für Ålesund\r\n'.encode())
+
+
 def test_one_topic_has_one_type(tmp_path):
     with RecordingWriter(tmp_path / 'run.mcap', {}) as writer:
         writer.write('/a', TEXT, b'\0\1\0\0\1\0\0\0\0', 5)
