@@ -1,5 +1,7 @@
 """`mooring check`: what a scene contains, what is switched on because of it, its largest stable step and its cost."""
 
+import math
+
 from .arguments import load_mooring
 from .console import ComputationFailed, print_json, table
 from .effects import effects
@@ -37,7 +39,11 @@ def inspect(path):
         "scene": str(path),
         **_contents(scene),
         "effects": switched,
-        "step_limit": {"dt": limit.dt, "limited_by": limit.limited_by, "limits": dict(limit.limits)},
+        "step_limit": {
+            "dt": float(limit.dt),
+            "limited_by": limit.limited_by,
+            "limits": {name: float(step) if math.isfinite(step) else None for name, step in limit.limits.items()},
+        },
         "cost": cost,
         "warnings": list(scene.warnings),
     }
@@ -90,7 +96,7 @@ def _contents(scene):
 
 
 def _area(kind):
-    return 0.25 * 3.141592653589793 * kind.diameter**2
+    return 0.25 * math.pi * kind.diameter**2
 
 
 def _text(found):
@@ -118,7 +124,7 @@ def _text(found):
         *(f"  {state:3}  {name.ljust(width)}  {why}" for state, name, why in switched),
         "",
         f"Largest stable step: {_g(limit['dt'])} s, limited by {limit['limited_by']}",
-        *(f"  {name}: {_g(value)} s" for name, value in sorted(limit["limits"].items(), key=lambda item: item[1])),
+        *(f"  {name}: {_g(step)} s" if step else f"  {name}: no limit" for name, step in limit["limits"].items()),
         "",
         f"Cost: {_g(cost['real_time_factor'])} times real time, measured just now on this machine"
         f" ({_g(cost['simulated'])} s simulated in {_g(cost['elapsed'])} s)",
