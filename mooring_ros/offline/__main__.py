@@ -36,7 +36,7 @@ def main(argv=None) -> int:
         sys.stdout.flush()
         return status
     except KeyboardInterrupt:
-        complain("interrupted")
+        complain("mooring: interrupted")
         return 130
     except UsageError as error:
         complain(str(error))

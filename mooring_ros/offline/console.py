@@ -27,7 +27,7 @@ def reading(path=None):
 
 def complain(message):
     """One line on standard error."""
-    print(f"mooring: {message}" if not _names_a_place(message) else message, file=sys.stderr, flush=True)
+    print(message, file=sys.stderr, flush=True)
 
 
 def print_json(value):
@@ -75,9 +75,3 @@ class Progress:
         if self._shown:
             self._stream.write("\r\x1b[K")
             self._stream.flush()
-
-
-def _names_a_place(message):
-    """Whether a message begins with the file that it is about, as in FILE:LINE: what is wrong."""
-    place = message.split(": ", 1)[0]
-    return ": " in message and " " not in place
