@@ -44,6 +44,11 @@ class ConventionCheck:
         self.verdict = Verdict(UNDECIDED, "twist not checked yet: not enough motion to tell")
 
     @property
+    def moved(self):
+        """Whether the platform has moved enough to tell."""
+        return bool(self._moving())
+
+    @property
     def finished(self):
         return self.verdict.kind in (WRONG, MISSING) or self._count >= _MOST_INTERVALS
 
@@ -71,8 +76,13 @@ class ConventionCheck:
             self.verdict = self._judge(assumed)
         return self.verdict
 
+    def _moving(self):
+        if self._count < _INTERVALS:
+            return []
+        return [part for part, least in enumerate((_SPEED, _RATE)) if math.sqrt(self._motion[part] / self._count) > least]
+
     def _judge(self, assumed):
-        moving = [part for part, least in enumerate((_SPEED, _RATE)) if math.sqrt(self._motion[part] / self._count) > least]
+        moving = self._moving()
         if not moving:
             return self.verdict
         if self._twist == 0.0:

@@ -19,8 +19,8 @@ from mooring_ros.motion.velocity import OnlineTwist
 UNIT_TOLERANCE = 1e-3
 RELOCATED_AFTER = 10
 
-NON_FINITE, QUATERNION, STALE, AHEAD, REPEATED, REORDERED, JUMP, FRAME = REASONS = (
-    "non_finite", "quaternion", "stale", "ahead", "repeated", "reordered", "jump", "frame")
+NON_FINITE, QUATERNION, STALE, AHEAD, REPEATED, REORDERED, JUMP, FRAME, UNPAIRED, MALFORMED = REASONS = (
+    "non_finite", "quaternion", "stale", "ahead", "repeated", "reordered", "jump", "frame", "unpaired", "malformed")
 
 # Below these a difference is never a jump, however short the time: noise of a motion capture at 1 kHz stays in.
 _JUMP_FLOOR, _JUMP_FLOOR_ANGLE = 0.1, 0.01
@@ -88,7 +88,7 @@ class Gate:
         if problem:
             return self._refuse(*problem)
         motion, given = self._convert(sample)
-        if not all(map(math.isfinite, motion.pose + motion.twist)):
+        if not math.isfinite(sum(motion.pose) + sum(motion.twist)):
             return self._refuse(NON_FINITE, "pose or twist is too large to convert")
         if self.last is not None:
             problem = self._check_against(self.last, motion, given)
@@ -97,6 +97,11 @@ class Gate:
                     self._remember(motion, given)
                 return self._refuse(*problem)
         return self._accept(motion, given, sample)
+
+    def reject(self, reason, words):
+        """Count what never became a sample."""
+        self.received += 1
+        self._refuse(reason, words)
 
     @property
     def relocated(self):
@@ -114,17 +119,19 @@ class Gate:
     # --- checks: each returns None, or (reason, words) ---
 
     def _check_sample(self, sample, now):
-        if not all(map(math.isfinite, sample.pose)):
+        # The sum of numbers with one among them that is not finite is not finite; of numbers so large, it is no loss either.
+        if not math.isfinite(sum(sample.pose)):
             return NON_FINITE, f"pose {_short(sample.pose)} is not finite"
-        if sample.twist is not None and not all(map(math.isfinite, sample.twist)):
+        if sample.twist is not None and not math.isfinite(sum(sample.twist)):
             return NON_FINITE, f"twist {_short(sample.twist)} is not finite"
         # hypot keeps a huge component from overflowing
         norm = math.hypot(*sample.pose[3:7])
         if abs(norm - 1.0) > UNIT_TOLERANCE:
             return QUATERNION, f"quaternion {_short(sample.pose[3:7])} has length {norm:.6g}, expected 1"
-        for given, expected, name in ((sample.frame, self.frame, "pose"), (sample.child_frame, self.child_frame, "platform")):
-            if given and expected and given != expected:
-                return FRAME, f"frame of the {name} is '{given}', expected '{expected}'"
+        if sample.frame != self.frame and sample.frame and self.frame:
+            return FRAME, f"frame of the pose is '{sample.frame}', expected '{self.frame}'"
+        if sample.child_frame != self.child_frame and sample.child_frame and self.child_frame:
+            return FRAME, f"frame of the platform is '{sample.child_frame}', expected '{self.child_frame}'"
         if self.limits.input_age > 0.0 and now is not None:
             age = (now - sample.stamp) * 1e-9
             if age > self.limits.input_age:
@@ -145,19 +152,27 @@ class Gate:
         dt = (motion.stamp - last.stamp) * 1e-9 * self.adapter.time_factor
         if limits.gap and dt > limits.gap:
             return JUMP, f"stamp is {dt:.6g} s after the last, limit {limits.gap:g} s"
-        twist = [0.5 * (a + b) for a, b in zip(last.twist, motion.twist)] if given else last.twist
-        off = math.hypot(*(b - a - dt * v for a, b, v in zip(last.pose, motion.pose, twist[:3])))
-        turn = rotation.turn_between(last.pose[3:], motion.pose[3:])
-        off_angle = math.hypot(*(a - dt * w for a, w in zip(turn, twist[3:])))
-        for value, limit, unit in ((off, _least(limits.jump, limits.jump_speed * dt, _JUMP_FLOOR), "m"),
-                                   (off_angle, _least(limits.jump_angle, limits.jump_rate * dt, _JUMP_FLOOR_ANGLE), "rad")):
-            if limit and value > limit:
-                return JUMP, f"pose is {value:.4g} {unit} from where the motion led, limit {limit:.4g} {unit} after {dt:.4g} s"
+        v, w = last.twist[:3], last.twist[3:]
         if given:
-            for part, limit, unit in ((slice(0, 3), limits.jump_speed, "m/s"), (slice(3, 6), limits.jump_rate, "rad/s")):
-                change = math.dist(motion.twist[part], last.twist[part])
-                if limit and change > limit:
-                    return JUMP, f"twist changed by {change:.4g} {unit} in one sample, limit {limit:.4g} {unit}"
+            problem = self._check_change(last.twist, motion.twist)
+            if problem:
+                return problem
+            v, w = _middle(v, motion.twist[:3]), _middle(w, motion.twist[3:])
+        off = _miss(last.pose, motion.pose, v, dt)
+        limit = _least(limits.jump, limits.jump_speed * dt, _JUMP_FLOOR)
+        if off > limit:
+            return JUMP, f"pose is {off:.4g} m from where the motion led, limit {limit:.4g} m after {dt:.4g} s"
+        off = _miss((0.0, 0.0, 0.0), rotation.turn_between(last.pose[3:], motion.pose[3:]), w, dt)
+        limit = _least(limits.jump_angle, limits.jump_rate * dt, _JUMP_FLOOR_ANGLE)
+        if off > limit:
+            return JUMP, f"attitude is {off:.4g} rad from where the motion led, limit {limit:.4g} rad after {dt:.4g} s"
+        return None
+
+    def _check_change(self, old, new):
+        for part, limit, unit in ((slice(0, 3), self.limits.jump_speed, "m/s"), (slice(3, 6), self.limits.jump_rate, "rad/s")):
+            change = math.dist(new[part], old[part])
+            if limit and change > limit:
+                return JUMP, f"twist changed by {change:.4g} {unit} in one sample, limit {limit:.4g} {unit}"
         return None
 
     # --- outcomes ---
@@ -194,10 +209,18 @@ class Gate:
         return None
 
 
+def _middle(a, b):
+    return 0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])
+
+
+def _miss(a, b, v, dt):
+    """Distance between b and where the speed v leads from a."""
+    return math.hypot(b[0] - a[0] - dt * v[0], b[1] - a[1] - dt * v[1], b[2] - a[2] - dt * v[2])
+
+
 def _least(limit, limit_by_speed, floor):
-    """The smaller of the two that are switched on; zero when both are off."""
-    on = [value for value in (limit, max(limit_by_speed, floor) if limit_by_speed else 0.0) if value]
-    return min(on, default=0.0)
+    """The smaller of the two that are switched on (not zero)."""
+    return min(limit or math.inf, max(limit_by_speed, floor) if limit_by_speed else math.inf)
 
 
 def _short(numbers):

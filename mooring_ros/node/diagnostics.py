@@ -1,0 +1,107 @@
+"""The node's state as a DiagnosticArray: input, core, timing, recording; counts and causes."""
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+
+from mooring_ros.motion.convention_check import MISSING, UNDECIDED
+from mooring_ros.motion.gate import REASONS
+from mooring_ros.node.session import FAILED, REFUSED, WAITING
+
+OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
+PREFIX = "mooring: "
+RECENT = 5.0        # s for which something that happened still colours the level
+
+
+class Diagnostics:
+    """Builds the messages. hardware_id: the node's full name. Times are s of a steady clock."""
+
+    def __init__(self, hardware_id):
+        self._hardware_id = hardware_id
+        self._grown = {}
+
+    def array(self, now, stamp, lifecycle, session=None, problem="", timing=None, recorder=None):
+        """The DiagnosticArray of this moment.
+
+        lifecycle: label of the node's state. session: of the activation, or None. problem: why the node could not be configured, or "".
+        timing: name -> value, with "missed" counted; recorder: the RecordingWriter, or None.
+        """
+        message = DiagnosticArray()
+        message.header.stamp = stamp
+        message.status = [self._input(now, session), self._core(now, session, lifecycle, problem), self._timing(now, timing or {}),
+                          self._recording(recorder)]
+        return message
+
+    def _input(self, now, session):
+        if session is None:
+            return self._status("input", OK, "not active", {})
+        gate, rejected = session.gate, sum(session.gate.rejected.values())
+        values = {"received": gate.received, "accepted": gate.accepted, "rejected": rejected,
+                  **{reason: gate.rejected[reason] for reason in REASONS}, "last rejection": gate.cause,
+                  "world frame": gate.frame, "platform frame": gate.child_frame}
+        fresh_rejection = self._grew("rejected", rejected, now)
+        fresh_input = self._grew("accepted", gate.accepted, now)
+        level, words = OK, f"{gate.accepted} samples"
+        if session.state == WAITING:
+            level, words = WARN, WAITING
+        if session.check is not None:
+            verdict = session.check.verdict
+            values["twist check"] = verdict.text
+            if verdict.kind == MISSING or verdict.kind == UNDECIDED and session.check.moved:
+                level, words = WARN, verdict.text
+        if fresh_rejection:
+            level, words = (WARN if fresh_input else ERROR), f"refused: {gate.cause}"
+            if gate.relocated:
+                words += "; call ~/settle to take the new place"
+        if session.state == REFUSED:
+            level, words = ERROR, session.cause
+        return self._status("input", level, words, values)
+
+    def _core(self, now, session, lifecycle, problem):
+        values = {"state": lifecycle}
+        if problem:
+            return self._status("core", ERROR, problem, values)
+        if session is None:
+            return self._status("core", OK, lifecycle, values)
+        output, mooring = session.output, session.mooring
+        limited = sum(output.limited.values())
+        values |= {"mooring": session.state, "steps": session.steps, "unanswered": session.unanswered,
+                   **{f"{name} limit reached": count for name, count in output.limited.items()}}
+        if session.wrenches is not None:
+            values |= {"time (s)": f"{mooring.time:.3f}", "largest fairlead tension (N)": f"{mooring.fairlead_tension.max():.6g}"}
+        level, words = OK, session.state
+        if output.holding:
+            level, words = WARN, f"output held: {output.holding}"
+        if self._grew("limited", limited, now):
+            level, words = ERROR, "output limited: " + ", ".join(f"{name} {count} times" for name, count in output.limited.items())
+        if session.state == FAILED:
+            level, words = ERROR, f"stopped, ~/settle restarts: {session.cause}"
+        elif session.state == REFUSED:
+            level, words = ERROR, "stopped: the input was refused"
+        return self._status("core", level, words, values)
+
+    def _timing(self, now, timing):
+        missed = timing.get("missed", 0)
+        late = self._grew("missed", missed, now)
+        return self._status("timing", WARN if late else OK, f"{missed} cycles missed" if missed else "in time", timing)
+
+    def _recording(self, recorder):
+        if recorder is None:
+            return self._status("recording", OK, "off", {})
+        values = {"path": recorder.path, "written": recorder.written, "lost": recorder.lost}
+        if recorder.error:
+            return self._status("recording", ERROR, recorder.error, values)
+        if recorder.lost:
+            return self._status("recording", ERROR, f"{recorder.lost} messages lost", values)
+        return self._status("recording", OK, f"{recorder.written} messages", values)
+
+    def _grew(self, name, count, now):
+        """Whether a count has grown within the last RECENT seconds."""
+        last, when = self._grown.get(name, (0, None))
+        if count > last:
+            when = now
+        elif count < last:
+            when = None
+        self._grown[name] = count, when
+        return when is not None and now - when <= RECENT
+
+    def _status(self, name, level, words, values):
+        return DiagnosticStatus(name=PREFIX + name, level=level, message=words, hardware_id=self._hardware_id,
+                                values=[KeyValue(key=key, value=str(value)) for key, value in values.items()])

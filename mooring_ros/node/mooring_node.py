@@ -1,0 +1,293 @@
+"""The managed node: it ties parameters, inputs, session, outputs, recording and diagnostics to the lifecycle."""
+import functools
+import gc
+import os
+import time
+import traceback
+
+import numpy as np
+from diagnostic_msgs.msg import DiagnosticArray
+from rclpy.clock import Clock, ClockType
+from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
+from rclpy.qos import QoSProfile
+from std_srvs.srv import Trigger
+
+from mooring_ros.mooring import Mooring, MooringError
+from mooring_ros.motion import Adapter, ConventionCheck, Gate, Limits
+from mooring_ros.node import parameters
+from mooring_ros.node.diagnostics import Diagnostics
+from mooring_ros.node.inputs import Inputs
+from mooring_ros.node.output import Output
+from mooring_ros.node.outputs import Outputs
+from mooring_ros.node.session import RUNNING, Session
+from mooring_ros.node.timing import Durations, FixedRate
+from mooring_ros.recording.errors import RecordingError
+from mooring_ros.recording.writer import RecordingWriter
+from mooring_ros.scene import load_scene
+
+SUCCESS, FAILURE, ERROR = TransitionCallbackReturn.SUCCESS, TransitionCallbackReturn.FAILURE, TransitionCallbackReturn.ERROR
+
+DIAGNOSTICS_PERIOD = 1.0    # s
+_HOLD_TIME = 1.0            # s, the ramp into the safe state where ramp_time does not say
+
+
+def _transition(callback):
+    """Log what goes wrong inside a transition: rclpy swallows it."""
+    @functools.wraps(callback)
+    def guarded(self, state):
+        try:
+            return callback(self, state)
+        except Exception:
+            self.get_logger().fatal(f"{callback.__name__} failed:\n{traceback.format_exc()}")
+            return ERROR
+    return guarded
+
+
+class MooringNode(LifecycleNode):
+    """Answers platform motion with mooring forces; see the README for topics, services and parameters."""
+
+    def __init__(self, **keywords):
+        super().__init__("mooring", **keywords)
+        self._session = self._inputs = self._outputs = self._recorder = self._mooring = self._adapter = None
+        self._services = []
+        self._timer = self._rate = None
+        self._problem = ""
+        self._said = ""
+        self._durations = Durations()
+        parameters.declare(self, lambda: self._mooring is not None)
+        self.add_post_set_parameters_callback(lambda _: self._apply_live_parameters())
+        self._steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._diagnostics = Diagnostics(self.get_fully_qualified_name())
+        self._diagnostics_publisher = self.create_publisher(DiagnosticArray, "/diagnostics", QoSProfile(depth=10))
+        self._diagnostics_timer = self.create_timer(DIAGNOSTICS_PERIOD, self._tick_diagnostics, clock=self._steady)
+
+    # --- lifecycle ---
+
+    @_transition
+    def on_configure(self, state):
+        """Load the scene, compile, open the recording, make the outputs. A bad scene is a failure that says where and why."""
+        try:
+            self._configure()
+        except (ValueError, OSError, MooringError, RecordingError) as error:
+            self._take_down()
+            self._problem = str(error)
+            self.get_logger().fatal(f"cannot configure: {self._problem}")
+            self.publish_diagnostics("unconfigured")
+            return FAILURE
+        self._problem = ""
+        return super().on_configure(state)
+
+    @_transition
+    def on_activate(self, state):
+        """Start a session: the first good sample settles. Subscriptions are made now, so being subscribed to says that it is active."""
+        values = parameters.values(self)
+        check = None if values["input"] == "pose" else ConventionCheck(self._adapter)
+        gate = Gate(self._adapter, Limits(), values["world_frame"], values["platform_frame"])
+        self._session = Session(self._mooring, gate, Output(), check)
+        self._apply_live_parameters()
+        if values["timing.mode"] == "timer":
+            self._rate = FixedRate(values["timing.rate"])
+            self._timer = self.create_timer(1.0 / values["timing.rate"], self._tick, clock=self._steady)
+        self._inputs = Inputs(self, values["input"], values["twist_frame"], gate, self._take)
+        # Nothing of this start is garbage, and a collection in the middle of an answer would delay it: from here on, once a second.
+        gc.collect()
+        gc.freeze()
+        gc.disable()
+        self.get_logger().info(f"active: listens to {', '.join(self._inputs.topics)}")
+        return super().on_activate(state)
+
+    @_transition
+    def on_deactivate(self, state):
+        """End the session; the outputs stay, silent."""
+        self._end_session()
+        return super().on_deactivate(state)
+
+    @_transition
+    def on_cleanup(self, state):
+        """Close the recording and forget the scene."""
+        self._take_down()
+        return super().on_cleanup(state)
+
+    @_transition
+    def on_shutdown(self, state):
+        """From any state: end all and close the recording."""
+        self._take_down()
+        return super().on_shutdown(state)
+
+    @_transition
+    def on_error(self, state):
+        """Whatever went wrong: back to unconfigured, with the recording closed."""
+        self._take_down()
+        self._problem = self._problem or "a transition failed, see the log"
+        return super().on_error(state)
+
+    def _configure(self):
+        values = parameters.values(self)
+        if not values["scene"]:
+            raise ValueError("parameter scene is empty, expected the path of a MoorDyn v2 input file")
+        scene = load_scene(values["scene"])
+        for warning in scene.warnings:
+            self.get_logger().warning(warning)
+        settings = {"fidelity": values["fidelity"], "solver": values["solver"], "dt": values["dt"] or None, "segments": values["segments"] or None}
+        begin = time.monotonic()
+        self._warm_up(Mooring(scene, **settings))
+        self.get_logger().info(f"compiled in {time.monotonic() - begin:.1f} s")
+        adapter = Adapter(values["twist_frame"], values["convention"], values["wrench_frame"], values["scale"], values["density_ratio"])
+        mooring = Mooring(scene, **settings)
+        self._mooring, self._adapter = mooring, adapter
+        self._recorder = self._open_recording(values, scene)
+        self._outputs = Outputs(self, mooring, adapter, self._recorder, values["visual_rate"])
+        self._make_services(mooring.line_names)
+        self.get_logger().info(f"configured: {values['scene']}, {len(mooring.line_names)} lines, {values['fidelity']}")
+
+    def _warm_up(self, mooring):
+        """Run on a mooring that is thrown away what a live one will run, so that everything is compiled."""
+        try:
+            pose = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
+            mooring.settle(pose)
+            for k in range(1, 4):
+                mooring.step(0.01 * k, pose, np.zeros(6))
+        except MooringError as error:
+            self.get_logger().warning(f"the scene cannot be solved at the platform's zero pose: {error}")
+
+    def _open_recording(self, values, scene):
+        if not values["recording.enabled"]:
+            if values["recording.path"]:
+                self.get_logger().warning("recording.path is set but recording.enabled is false: nothing is recorded")
+            return None
+        path = values["recording.path"] or time.strftime("mooring_%Y%m%d-%H%M%S.mcap")
+        recorder = RecordingWriter(path, values, os.path.basename(str(scene.path)), scene.text)
+        self.get_logger().info(f"records to {recorder.path}")
+        return recorder
+
+    def _make_services(self, line_names):
+        self._services_of_configuration = [
+            self.create_service(Trigger, "~/settle", self._serve(lambda session: session.settle())),
+            self.create_service(Trigger, "~/hold", self._serve(lambda session: session.hold()))]
+        for name in line_names:
+            self._services_of_configuration.append(
+                self.create_service(Trigger, f"~/lines/{name}/release", self._serve(lambda session, name=name: session.release(name))))
+
+    def _end_session(self):
+        if self._inputs is not None:
+            self._inputs.destroy()
+        if self._timer is not None:
+            self.destroy_timer(self._timer)
+        if self._session is not None:
+            gc.enable()
+            gc.unfreeze()
+        self._inputs = self._timer = self._rate = self._session = None
+
+    def _take_down(self):
+        self._end_session()
+        for service in getattr(self, "_services_of_configuration", []):
+            self.destroy_service(service)
+        self._services_of_configuration = []
+        if self._outputs is not None:
+            self._outputs.destroy()
+        recorder, self._recorder = self._recorder, None
+        self._outputs = self._mooring = self._adapter = None
+        if recorder is not None:
+            recorder.close()
+            if recorder.error or recorder.lost:
+                self.get_logger().error(f"recording {recorder.path}: {recorder.lost} messages lost {recorder.error or ''}")
+
+    # --- the way of a sample ---
+
+    def _take(self, sample, topic, type_name, data, stamp):
+        arrived = time.perf_counter_ns()
+        session, outputs = self._session, self._outputs
+        answers = None
+        if sample is not None:
+            now = self.get_clock().now().nanoseconds if session.gate.limits.input_age else None
+            if self._rate is None:
+                answers = session.take(sample, now)
+            else:
+                answers = session.observe(sample, now, time.monotonic_ns())
+            if answers is not None:
+                self._answer(answers, arrived)
+        last = session.gate.last
+        # A refused stamp may be anything: on the recording's time axis it stands beside the last good one.
+        good = last.stamp if last is not None else stamp or 0
+        outputs.record_input(topic, type_name, data, stamp if sample is not None and answers == stamp else good, stamp if stamp is not None else good)
+        self._after()
+
+    def _tick(self):
+        """One cycle of the timer mode."""
+        begin = time.perf_counter_ns()
+        if not self._rate.due(time.monotonic_ns()):
+            return
+        answers = self._session.tick(time.monotonic_ns())
+        if answers is not None:
+            self._answer(answers, begin)
+        self._after()
+
+    def _answer(self, stamp, begin):
+        gate, outputs = self._session.gate, self._outputs
+        outputs.use_frames(gate.frame, gate.child_frame)
+        answered = outputs.answer(stamp, self._session)
+        self._durations.add(time.perf_counter_ns() - begin)
+        outputs.follow(stamp, answered)
+
+    def _after(self):
+        self._outputs.record_actions(self._session.actions())
+        self._session.review()
+        self._say_state()
+
+    def _say_state(self):
+        """Log and publish at once when the session starts, stops, or begins to refuse."""
+        session = self._session
+        if session.state != self._said:
+            self._said = session.state
+            (self.get_logger().info if session.state == RUNNING else self.get_logger().error)(f"{session.state}: {session.cause}".rstrip(": "))
+            self.publish_diagnostics("active")
+
+    # --- services, parameters, diagnostics ---
+
+    def _serve(self, act):
+        def serve(_, response):
+            if self._session is None:
+                response.success, response.message = False, "not active"
+            else:
+                response.success, response.message = act(self._session)
+                self.get_logger().info(response.message)
+                self._after()
+            return response
+        return serve
+
+    def _apply_live_parameters(self):
+        if self._session is None:
+            return
+        values = parameters.values(self)
+        limits, output = self._session.gate.limits, self._session.output
+        for name in vars(limits):
+            setattr(limits, name, values[f"limits.{name}"])
+        to_inside = 1.0 / self._adapter.force_factor
+        output.force, output.force_rate = values["limits.force"] * to_inside, values["limits.force_rate"] * to_inside
+        output.ramp_time = values["ramp_time"]
+        output.hold_time = values["ramp_time"] or _HOLD_TIME
+        self._outputs.visual_rate = values["visual_rate"]
+
+    def _tick_diagnostics(self):
+        self.publish_diagnostics(self._state_machine.current_state[1])
+        if self._session is not None:
+            gc.collect()
+
+    def publish_diagnostics(self, lifecycle):
+        """Publish the state now. lifecycle: label of the node's state."""
+        self._diagnostics_publisher.publish(self._diagnostics.array(
+            time.monotonic(), self.get_clock().now().to_msg(), lifecycle, self._session, self._problem, self._timing_values(), self._recorder))
+
+    def _timing_values(self):
+        values = {"mode": "input" if self._rate is None else "timer"}
+        if self._rate is not None:
+            values |= {"rate (Hz)": f"{1e9 / self._rate.period:g}", "cycles": self._rate.ticks, "missed": self._rate.missed}
+        spent = self._durations.milliseconds()
+        if spent:
+            values |= dict(zip(("input to wrench p50 (ms)", "input to wrench p99 (ms)", "input to wrench max (ms)"), (f"{ms:.3f}" for ms in spent)))
+        return values
+
+    def destroy_node(self):
+        """Close the recording even when nobody went through the lifecycle."""
+        self._take_down()
+        super().destroy_node()

@@ -1,0 +1,121 @@
+"""The publishers of a configured node. The wrench goes out first; everything else follows when it is on its way."""
+from geometry_msgs.msg import WrenchStamped
+from rclpy.qos import QoSProfile
+from rclpy.qos_overriding_options import QoSOverridingOptions
+from sensor_msgs.msg import JointState, PointCloud2
+from std_msgs.msg import Float64MultiArray
+from visualization_msgs.msg import MarkerArray
+
+from mooring_ros.node import messages
+from mooring_ros.node.markers import MARKER_ARRAY, Markers
+from mooring_ros.node.template import Template, placeholder
+from mooring_ros.recording import schedule
+
+_DEPTH = 50
+
+
+class Outputs:
+    """Serializes each answer once; the same bytes are published and recorded.
+
+    node: creates the publishers. mooring: for names and shapes. adapter: see motion.Adapter. recorder: RecordingWriter or None.
+    visual_rate: Hz in the time of the input, may be changed; 0 is never.
+    """
+
+    def __init__(self, node, mooring, adapter, recorder, visual_rate):
+        self._node, self._mooring, self._adapter, self._recorder = node, mooring, adapter, recorder
+        self.visual_rate = visual_rate
+        self._shown = None
+        self._publishers = {}
+        self._wrench = self._publisher(WrenchStamped, messages.WRENCH, "~/wrench")
+        self._fairleads = [self._publisher(WrenchStamped, messages.WRENCH, messages.fairlead_topic("~", name))
+                           for name in mooring.coupled_names]
+        self._lines = self._publisher(JointState, messages.JOINT_STATE, "~/lines")
+        self._line_tensions = self._publisher(Float64MultiArray, messages.FLOAT_ARRAY, "~/line_tensions")
+        self._nodes = self._publisher(PointCloud2, messages.POINT_CLOUD, "~/nodes")
+        self._markers = self._publisher(MarkerArray, MARKER_ARRAY, "~/markers")
+        slot = placeholder(schedule.LENGTH)
+        self._schedule = Template(Float64MultiArray(data=messages.floats(slot)), [slot])
+        self._steps_topic = node.get_fully_qualified_name() + schedule.TOPIC_SUFFIX
+        self._declare(self._steps_topic, schedule.TYPE_NAME)
+        self._messages = self._marker_messages = self._frames = None
+
+    def use_frames(self, world_frame, platform_frame):
+        """Name the frames in the headers; called again when they are known from the input."""
+        if (world_frame, platform_frame) == self._frames:
+            return
+        self._frames = world_frame, platform_frame
+        world = world_frame or "world"
+        wrench_frame = world if self._adapter.wrench_frame == "world" else platform_frame or "platform"
+        self._messages = messages.Messages(self._mooring, self._adapter, wrench_frame, world)
+        self._marker_messages = Markers(self._mooring, self._adapter, world)
+
+    def answer(self, stamp, session):
+        """Publish the total wrench; returns what `follow` needs to go on."""
+        wrenches = self._messages.wrenches(session.wrenches, self._mooring.pose)
+        data = self._messages.wrench(stamp, wrenches[0])
+        self._wrench.publish(data)
+        return wrenches, data
+
+    def follow(self, stamp, answered):
+        """Publish the rest of the answer, and record all of it."""
+        wrenches, data = answered
+        if self._recorder is not None:
+            self._record(self._wrench, data, stamp)
+        for publisher, wrench in zip(self._fairleads, wrenches[1:]):
+            self._send(publisher, self._messages.wrench(stamp, wrench), stamp)
+        self._send(self._lines, self._messages.lines(stamp, self._mooring), stamp)
+        self._send(self._line_tensions, self._messages.line_tensions(self._mooring), stamp)
+        if self._due(stamp):
+            if self._wanted(self._nodes):
+                self._send(self._nodes, self._messages.nodes(stamp, self._mooring), stamp)
+            if self._wanted(self._markers):
+                self._send(self._markers, self._marker_messages.markers(stamp, self._mooring), stamp)
+
+    def record_input(self, topic, type_name, data, log_time, publish_time):
+        """Record a message as it was received. Times: ns."""
+        if self._recorder is not None:
+            self._recorder.write(topic, type_name, data, log_time, publish_time)
+
+    def record_actions(self, actions):
+        """Record what was done to the core: (stamp, schedule record) each."""
+        if self._recorder is not None:
+            for stamp, record in actions:
+                self._recorder.write(self._steps_topic, schedule.TYPE_NAME, self._schedule.fill(0, record), stamp, stamp)
+
+    def destroy(self):
+        """Take all publishers down."""
+        for publisher in self._publishers:
+            self._node.destroy_publisher(publisher)
+        self._publishers = {}
+
+    def _publisher(self, message_type, type_name, topic):
+        publisher = self._node.create_publisher(message_type, topic, QoSProfile(depth=_DEPTH),
+                                                qos_overriding_options=QoSOverridingOptions.with_default_policies())
+        self._publishers[publisher] = publisher.topic_name, type_name
+        self._declare(publisher.topic_name, type_name)
+        return publisher
+
+    def _declare(self, topic, type_name):
+        if self._recorder is not None:
+            self._recorder.declare(topic, type_name)
+
+    def _send(self, publisher, data, stamp):
+        publisher.publish(data)
+        if self._recorder is not None:
+            self._record(publisher, data, stamp)
+
+    def _record(self, publisher, data, stamp):
+        topic, type_name = self._publishers[publisher]
+        self._recorder.write(topic, type_name, data, stamp, stamp)
+
+    def _due(self, stamp):
+        if not self.visual_rate:
+            return False
+        # A little less than the period, so that rounding of the stamps does not skip every other one.
+        if self._shown is not None and 0 <= stamp - self._shown < 0.999e9 / self.visual_rate:
+            return False
+        self._shown = stamp
+        return True
+
+    def _wanted(self, publisher):
+        return self._recorder is not None or publisher.get_subscription_count() > 0

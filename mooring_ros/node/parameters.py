@@ -1,0 +1,120 @@
+"""All parameters of the node in one table: default, range, and whether a change needs a new configure."""
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor, SetParametersResult
+from rclpy.parameter import Parameter
+
+from mooring_ros.motion.frames import CONVENTIONS, TWIST_FRAMES, WRENCH_FRAMES
+from mooring_ros.node.timing import MODES
+
+INPUTS = ("odometry", "pose_twist", "pose")
+FIDELITIES = ("linear", "quasi_static", "dynamic")
+SOLVERS = ("explicit", "implicit", "auto")
+
+_HUGE, _TINY = 1e18, 1e-6
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One parameter. fixed: a change needs cleanup and configure. low, high: range of a number. choices: of a text."""
+
+    name: str
+    default: Any
+    description: str
+    fixed: bool = False
+    low: float = 0.0
+    high: float = _HUGE
+    choices: tuple = ()
+
+
+TABLE = (
+    Entry("autostart", True, "Configure and activate at start, without a lifecycle manager.", fixed=True),
+    Entry("scene", "", "Path of the MoorDyn v2 input file.", fixed=True),
+    Entry("fidelity", "dynamic", "Model of the lines.", fixed=True, choices=FIDELITIES),
+    Entry("solver", "auto", "Time integration of the dynamic lines.", fixed=True, choices=SOLVERS),
+    Entry("dt", 0.0, "Internal time step (s); 0: chosen from the stability limits of the scene.", fixed=True, high=1e3),
+    Entry("segments", 0, "Segments of each line; 0: as in the scene.", fixed=True, high=100_000),
+    Entry("input", "odometry", "Topics of the platform's motion: platform/odom; platform/pose and platform/twist with equal stamps; or platform/pose alone.",
+          fixed=True, choices=INPUTS),
+    Entry("world_frame", "", "Frame that the motion is given in; others are refused. Empty: that of the first sample.", fixed=True),
+    Entry("platform_frame", "", "Frame of the platform; others are refused. Empty: that of the first sample.", fixed=True),
+    Entry("twist_frame", "child", "Axes of the given twist: the platform's (child), or the world's.", fixed=True, choices=TWIST_FRAMES),
+    Entry("convention", "enu", "Axes of world and platform: ENU and forward-left-up (enu), or NED and forward-right-down (ned).", fixed=True,
+          choices=CONVENTIONS),
+    Entry("wrench_frame", "world", "Axes of the wrenches: the world's, or the platform's (body).", fixed=True, choices=WRENCH_FRAMES),
+    Entry("scale", 1.0, "Froude length scale: full scale over model scale of the platform that moves; the scene is at full scale.", fixed=True,
+          low=_TINY, high=1e6),
+    Entry("density_ratio", 1.0, "Density of the water at full scale over that at model scale.", fixed=True, low=1e-3, high=1e3),
+    Entry("timing.mode", "input", "One step for each input message (input), or at a fixed rate against a steady clock (timer).", fixed=True,
+          choices=MODES),
+    Entry("timing.rate", 100.0, "Rate of the timer mode (Hz).", fixed=True, low=0.1, high=2000.0),
+    Entry("limits.force", 0.0, "Largest force on the platform (N, as published); a larger one is scaled down. 0: no limit."),
+    Entry("limits.force_rate", 0.0, "Fastest change of that force (N/s, as published); a faster one is followed at this rate. 0: no limit."),
+    Entry("limits.input_age", 0.0, "Oldest input that is used (s by the node's clock). 0: no limit; timer mode then carries motion on for 0.2 s."),
+    Entry("limits.jump", 10.0, "Farthest a pose may lie from where the motion led (m, full scale). 0: no limit."),
+    Entry("limits.jump_angle", 0.5, "The same in angle (rad). 0: no limit."),
+    Entry("limits.jump_speed", 10.0, "Largest change of velocity between samples, and speed at which a pose may leave its motion (m/s, full scale). "
+                                     "0: no limit."),
+    Entry("limits.jump_rate", 2.0, "The same in angular velocity (rad/s, full scale). 0: no limit."),
+    Entry("limits.gap", 60.0, "Longest time between two samples of one motion (s, full scale). 0: no limit."),
+    Entry("ramp_time", 0.0, "Cosine ramp of the wrench after a start or a settle (s). 0: none.", high=1e6),
+    Entry("visual_rate", 10.0, "Rate of ~/nodes and ~/markers in the time of the input (Hz). 0: never.", high=1000.0),
+    Entry("recording.enabled", False, "Record inputs, outputs, steps, parameters and scene to MCAP.", fixed=True),
+    Entry("recording.path", "", "Where to record: NAME.mcap, or a folder name. Empty: mooring_DATE-TIME.mcap in the working directory.", fixed=True),
+)
+_BY_NAME = {entry.name: entry for entry in TABLE}
+
+
+def declare(node, configured):
+    """Declare all parameters on a node. configured(): whether the node stands on the fixed ones now, so that they cannot change.
+
+    Raises what rclpy raises for a value of the wrong type or outside its range.
+    """
+    node.add_on_set_parameters_callback(lambda changes: _check(changes, configured()))
+    for entry in TABLE:
+        _whole_number_as_float(node, entry)
+        node.declare_parameter(entry.name, entry.default, _descriptor(entry))
+
+
+def values(node):
+    """Name -> value of all parameters in the table."""
+    return {entry.name: node.get_parameter(entry.name).value for entry in TABLE}
+
+
+def _descriptor(entry):
+    words = entry.description + (" Fixed while configured." if entry.fixed else "")
+    descriptor = ParameterDescriptor(description=words)
+    if entry.choices:
+        descriptor.additional_constraints = "one of " + ", ".join(entry.choices)
+    if isinstance(entry.default, float):
+        descriptor.floating_point_range = [FloatingPointRange(from_value=entry.low, to_value=entry.high)]
+    elif isinstance(entry.default, int) and not isinstance(entry.default, bool):
+        descriptor.integer_range = [IntegerRange(from_value=int(entry.low), to_value=int(entry.high))]
+    return descriptor
+
+
+def _whole_number_as_float(node, entry):
+    """`-p timing.rate:=100` is an integer to ROS and would be refused; nobody means that."""
+    override = node._parameter_overrides.get(entry.name)
+    if override is not None and isinstance(entry.default, float) and override.type_ == Parameter.Type.INTEGER:
+        node._parameter_overrides[entry.name] = Parameter(entry.name, value=float(override.value))
+
+
+def _check(changes, configured):
+    for change in changes:
+        entry = _BY_NAME.get(change.name)
+        if entry is None:
+            continue
+        if entry.fixed and configured:
+            return _refused(f"{entry.name} is fixed while configured: clean up first")
+        if entry.choices and change.value not in entry.choices:
+            return _refused(f"{entry.name} is '{change.value}', expected one of {', '.join(entry.choices)}")
+        if isinstance(change.value, float) and not math.isfinite(change.value):
+            return _refused(f"{entry.name} is {change.value}, expected a finite number")
+    return SetParametersResult(successful=True)
+
+
+def _refused(reason):
+    return SetParametersResult(successful=False, reason=reason)

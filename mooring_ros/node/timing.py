@@ -1,0 +1,82 @@
+"""Timing policies, without a clock of their own: times are integer ns of a steady clock, handed in.
+
+`input`: one step an input message, at the message's stamp. The source sets the pace, which is lockstep; there is nothing to decide.
+`timer`: steps at a fixed rate on absolute deadlines, whatever the inputs do: `FixedRate` says which tick is due, `SourceClock`
+what the source's clock shows then, so that the last motion can be carried on to that moment.
+"""
+from collections import deque
+
+MODES = ("input", "timer")
+
+
+class FixedRate:
+    """Ticks at start + k·period, k = 0, 1, 2, … A late tick does not move the later ones; missed ones are skipped and counted."""
+
+    def __init__(self, rate):
+        self.period = round(1e9 / rate)
+        self.missed = 0
+        self.ticks = 0
+        self._start = None
+        self._last = None
+
+    def due(self, now):
+        """Whether a tick that was not taken yet has come; takes it."""
+        if self._start is None:
+            self._start = now
+        # The timer that calls may be early by a little: half a period decides to which deadline a call belongs.
+        tick = (now - self._start + self.period // 2) // self.period
+        if self._last is not None:
+            if tick <= self._last:
+                return False
+            self.missed += tick - self._last - 1
+        self._last = tick
+        self.ticks += 1
+        return True
+
+
+class SourceClock:
+    """What the source's clock shows, learned from stamps and their times of arrival.
+
+    The least delay seen tells the offset between the clocks best. It is let grow by `drift`, so that a source whose clock runs slow
+    is followed; a source that is ahead is followed at once. The time it gives never runs backwards.
+    """
+
+    def __init__(self, drift=2e-4):
+        self._drift = drift
+        self._offset = self._heard = self._shown = None
+
+    def hear(self, stamp, now):
+        """A sample with this stamp (ns) arrived."""
+        offset = now - stamp
+        if self._offset is not None:
+            offset = min(offset, self._offset + round(self._drift * (now - self._heard)))
+        self._offset, self._heard = offset, now
+
+    def now(self, now):
+        """The source's clock (ns), or None before the first sample."""
+        if self._offset is None:
+            return None
+        shown = now - self._offset
+        self._shown = shown if self._shown is None else max(shown, self._shown)
+        return self._shown
+
+    def restart(self):
+        """Forget all: the source has a new clock."""
+        self._offset = self._heard = self._shown = None
+
+
+class Durations:
+    """The last durations (ns) of something, for the diagnostics."""
+
+    def __init__(self, keep=1000):
+        self._values = deque(maxlen=keep)
+
+    def add(self, value):
+        self._values.append(value)
+
+    def milliseconds(self):
+        """Median, 99th percentile and maximum in ms; None when there is nothing yet."""
+        if not self._values:
+            return None
+        ordered = sorted(self._values)
+        return tuple(ordered[min(int(share * len(ordered)), len(ordered) - 1)] * 1e-6 for share in (0.5, 0.99, 1.0))
