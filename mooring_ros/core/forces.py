@@ -1,0 +1,27 @@
+"""One evaluation of the equations of motion: the stages in their order."""
+
+from .cache import stage
+from .inertia import accelerations
+from .points import carry_ends, hold_prescribed, move_free_points
+from .seabed import bed_contact
+from .surface import wet_shares
+from .tension import pull_on_nodes, segment_tensions
+from .water import water_loads
+
+
+@stage
+def evaluate(model, state, scratch, drag_time, surfaced):
+    """Forces and accelerations of all nodes from positions and velocities; prescribed points must stand in place.
+
+    `drag_time` (s): see `water_loads`. `surfaced`: some of the mooring may be above water. Otherwise `state.wet` must be ones.
+    """
+    carry_ends(model, state)
+    segment_tensions(model, state)
+    pull_on_nodes(model, state)
+    if surfaced:
+        wet_shares(model, state, scratch)
+    water_loads(model, state, drag_time)
+    bed_contact(model, state)
+    accelerations(model, state)
+    move_free_points(model, state)
+    hold_prescribed(model, state)

@@ -1,0 +1,31 @@
+"""What a step may not leave behind: numbers that are no numbers, and speeds that nothing in the scene can cause."""
+
+from .cache import stage
+
+
+@stage
+def runaway(model, state, speed_limit):
+    """True when a node is faster than `speed_limit` (m/s) or not a number."""
+    u, v, w = state.velocity[0], state.velocity[1], state.velocity[2]
+    z = state.position[2]
+    limit = speed_limit * speed_limit
+    bad = 0
+    for i in range(model.size):
+        bad |= not (u[i] * u[i] + v[i] * v[i] + w[i] * w[i] + 0.0 * z[i] <= limit)
+    return bad != 0
+
+
+@stage
+def save(model, state, copy):
+    for k in range(3):
+        for i in range(model.size + 1):
+            copy[k, i] = state.position[k, i]
+            copy[3 + k, i] = state.velocity[k, i]
+
+
+@stage
+def recall(model, state, copy):
+    for k in range(3):
+        for i in range(model.size + 1):
+            state.position[k, i] = copy[k, i]
+            state.velocity[k, i] = copy[3 + k, i]

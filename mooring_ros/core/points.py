@@ -1,0 +1,133 @@
+"""Points: where the ends of lines are held, how they move, and what they feel.
+
+The node of a point and the end nodes of its lines share one motion. Fixed and coupled points are prescribed; a free point moves by the sum
+of the forces on all its nodes over the sum of their inertia.
+"""
+
+import numpy as np
+
+from .cache import stage
+from .model import LOOSE, POINT_COUPLED, POINT_FREE
+from .platform import cross, platform_at, rotate, turned
+from .tension import TINY
+
+
+@stage
+def place_node(state, node, place, velocity):
+    for k in range(3):
+        state.position[k, node] = place[k]
+        state.velocity[k, node] = velocity[k]
+
+
+@stage
+def place_coupled_points(model, state, motion, s):
+    """Put the nodes of the coupled points where the platform carries them at s in 0..1 of its interval."""
+    place, velocity, phi, omega = platform_at(motion, s)
+    quaternion = (state.pose[3], state.pose[4], state.pose[5], state.pose[6])  # of the interval's start
+    for p in range(model.point_node.size):
+        if model.point_kind[p] == POINT_COUPLED:
+            arm = (model.point_place[p, 0], model.point_place[p, 1], model.point_place[p, 2])
+            arm = turned(phi, rotate(quaternion, arm))
+            spin = cross(omega, arm)
+            node = model.point_node[p]
+            place_node(
+                state,
+                node,
+                (place[0] + arm[0], place[1] + arm[1], place[2] + arm[2]),
+                (velocity[0] + spin[0], velocity[1] + spin[1], velocity[2] + spin[2]),
+            )
+
+
+@stage
+def carry_ends(model, state):
+    """Give the end nodes of the lines the motion of the points that hold them."""
+    for e in range(model.end_node.size):
+        p = state.end_point[e]
+        if p != LOOSE:
+            end, node = model.end_node[e], model.point_node[p]
+            for k in range(3):
+                state.position[k, end] = state.position[k, node]
+                state.velocity[k, end] = state.velocity[k, node]
+
+
+@stage
+def add_inertia(model, state, node, matrix):
+    """Add the node's inertia matrix m I + (m_a - m) t t' (3 x 3, relieved vertically in the bed) to `matrix` (6,): xx, yy, zz, xy, xz, yz."""
+    t = state.tangent
+    tx, ty, tz = t[0, node] + t[0, node + 1], t[1, node] + t[1, node + 1], t[2, node] + t[2, node + 1]
+    normal, axial = state.inertia_normal[node], state.inertia_axial[node]
+    surplus = (axial - normal) / max(tx * tx + ty * ty + tz * tz, TINY)
+    relieved = 1.0
+    if state.position[2, node] < model.bed_level:
+        relieved = 1.0 / max(state.bed_relief[node], 1e-12)
+    return (
+        matrix[0] + normal + surplus * tx * tx,
+        matrix[1] + normal + surplus * ty * ty,
+        matrix[2] + (normal + surplus * tz * tz) * relieved,
+        matrix[3] + surplus * tx * ty,
+        matrix[4] + surplus * tx * tz,
+        matrix[5] + surplus * ty * tz,
+    )
+
+
+@stage
+def solve_symmetric(m, f):
+    """Solve the symmetric 3 x 3 system with m = xx, yy, zz, xy, xz, yz; zero where the matrix is zero."""
+    a = m[1] * m[2] - m[5] * m[5]
+    b = m[4] * m[5] - m[3] * m[2]
+    c = m[3] * m[5] - m[4] * m[1]
+    determinant = m[0] * a + m[3] * b + m[4] * c
+    inverse = 1.0 / determinant if determinant > 0.0 else 0.0
+    d = m[0] * m[2] - m[4] * m[4]
+    e = m[3] * m[4] - m[0] * m[5]
+    g = m[0] * m[1] - m[3] * m[3]
+    return (
+        inverse * (a * f[0] + b * f[1] + c * f[2]),
+        inverse * (b * f[0] + d * f[1] + e * f[2]),
+        inverse * (c * f[0] + e * f[1] + g * f[2]),
+    )
+
+
+@stage
+def free_point_load(model, state, p):
+    """Sum of forces (3,) and inertia (6,) over the nodes that move with free point p."""
+    force = state.force
+    node = model.point_node[p]
+    fx, fy, fz = force[0, node], force[1, node], force[2, node]
+    matrix = add_inertia(model, state, node, (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+    for e in range(model.end_node.size):
+        if state.end_point[e] == p:
+            end = model.end_node[e]
+            fx, fy, fz = fx + force[0, end], fy + force[1, end], fz + force[2, end]
+            matrix = add_inertia(model, state, end, matrix)
+    return (fx, fy, fz), matrix
+
+
+@stage
+def move_free_points(model, state):
+    """Accelerations of the free points, given to their nodes and those of the ends they hold."""
+    acceleration = state.acceleration
+    for i in range(model.free_points.size):
+        p = model.free_points[i]
+        force, matrix = free_point_load(model, state, p)
+        a = solve_symmetric(matrix, force)
+        for k in range(3):
+            acceleration[k, model.point_node[p]] = a[k]
+        for e in range(model.end_node.size):
+            if state.end_point[e] == p:
+                for k in range(3):
+                    acceleration[k, model.end_node[e]] = a[k]
+
+
+@stage
+def hold_prescribed(model, state):
+    """Nothing but the platform moves fixed and coupled points: no acceleration of their nodes and ends in the step."""
+    for p in range(model.point_node.size):
+        if model.point_kind[p] != POINT_FREE:
+            for k in range(3):
+                state.acceleration[k, model.point_node[p]] = 0.0
+    for e in range(model.end_node.size):
+        p = state.end_point[e]
+        if p != LOOSE and model.point_kind[p] != POINT_FREE:
+            for k in range(3):
+                state.acceleration[k, model.end_node[e]] = 0.0

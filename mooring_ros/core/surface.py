@@ -1,0 +1,47 @@
+"""The free surface at z = 0: only the wet part of a segment or point feels water."""
+
+import numpy as np
+
+from .cache import stage
+
+
+@stage
+def reaches_above(model, state, level):
+    """True when any node stands above `level` (m)."""
+    z = state.position[2]
+    above = 0
+    for i in range(model.size):
+        above |= z[i] > level
+    return above != 0
+
+
+@stage
+def all_wet(model, state):
+    wet = state.wet
+    for i in range(model.size):
+        wet[i] = 1.0
+
+
+@stage
+def wet_shares(model, state, scratch):
+    """Wet share of every node: the wet lengths of its half segments, or the wet cap of a point's sphere.
+
+    A segment between depths a and b, a cylinder of diameter d, is taken to go under evenly over the vertical extent |a - b| + d, which is
+    exact for a steep one and has the right ends for one that lies in the surface.
+    """
+    z, wet, part = state.position[2], state.wet, scratch.wet_segment
+    diameter, share_left, share_right = model.diameter, model.share_left, model.share_right
+    for i in range(model.size):
+        radius = 0.5 * diameter[i + 1]
+        deep = max(-z[i], -z[i + 1]) + radius
+        shallow = min(-z[i], -z[i + 1]) - radius
+        part[i + 1] = (max(deep, 0.0) - max(shallow, 0.0)) / max(deep - shallow, 1e-9)
+    for i in range(model.size):
+        wet[i] = share_left[i] * part[i] + share_right[i] * part[i + 1]
+    for p in range(model.point_node.size):
+        node = model.point_node[p]
+        if model.point_diameter[p] > 0.0:
+            under = min(max(0.5 - z[node] / model.point_diameter[p], 0.0), 1.0)
+            wet[node] = under * under * (3.0 - 2.0 * under)
+        else:
+            wet[node] = 1.0 if z[node] <= 0.0 else 0.0

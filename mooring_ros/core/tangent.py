@@ -1,0 +1,151 @@
+"""Tangent stiffness K = -dF/dx of the static forces, block tridiagonal along the lines.
+
+diagonal[i], above[i], below[i] are the 3 x 3 blocks of node i with itself, with node i + 1 and with node i - 1.
+"""
+
+import numpy as np
+
+from .cache import kernel, stage
+from .surface import wet_shares
+
+SHIFT = 1e-4  # m, for the change of buoyancy with depth
+
+
+@kernel
+def fill_tangent(model, state, scratch, diagonal, above, below):
+    """Blocks at the current positions; `evaluate` must have run there with all velocities zero."""
+    diagonal[:] = 0.0
+    above[:] = 0.0
+    below[:] = 0.0
+    _axial(model, state, diagonal, above, below)
+    for i in range(model.size):
+        if state.position[2, i] < model.bed_level:
+            diagonal[i, 2, 2] += model.bed_stiffness[i]
+    if model.current[0] != 0.0 or model.current[1] != 0.0 or model.current[2] != 0.0:
+        for i in range(model.size):
+            _drag(model, state, i, diagonal, above, below)
+    _buoyancy(model, state, scratch, diagonal)
+
+
+@stage
+def _axial(model, state, diagonal, above, below):
+    """EA/l q q' + T/L (I - q q') for taut segments; none for slack ones."""
+    x = state.position
+    for i in range(model.size):
+        tension = state.tension[i + 1]
+        if tension <= 0.0:
+            continue
+        q = state.tangent[:, i + 1]
+        axial = model.stiffness[i + 1] * model.inverse_length[i + 1]
+        stretched = q[0] * (x[0, i + 1] - x[0, i]) + q[1] * (x[1, i + 1] - x[1, i]) + q[2] * (x[2, i + 1] - x[2, i])
+        turning = tension / max(stretched, 0.1 * model.length[i + 1])
+        for a in range(3):
+            for b in range(3):
+                k = (axial - turning) * q[a] * q[b]
+                if a == b:
+                    k += turning
+                diagonal[i, a, b] += k
+                diagonal[i + 1, a, b] += k
+                above[i, a, b] -= k
+                below[i + 1, a, b] -= k
+
+
+@stage
+def _drag(model, state, i, diagonal, above, below):
+    """Change of the current's drag on node i as its tangent turns with the segments on both sides."""
+    tx, ty, tz = (
+        state.tangent[0, i] + state.tangent[0, i + 1],
+        state.tangent[1, i] + state.tangent[1, i + 1],
+        state.tangent[2, i] + state.tangent[2, i + 1],
+    )
+    size = np.sqrt(tx * tx + ty * ty + tz * tz)
+    if size < 1e-6:
+        return
+    t = (tx / size, ty / size, tz / size)
+    u = (model.current[0], model.current[1], model.current[2])
+    along = u[0] * t[0] + u[1] * t[1] + u[2] * t[2]
+    ua = (along * t[0], along * t[1], along * t[2])
+    un = (u[0] - ua[0], u[1] - ua[1], u[2] - ua[2])
+    speed_a = max(abs(along), 1e-12)
+    speed_n = max(np.sqrt(un[0] * un[0] + un[1] * un[1] + un[2] * un[2]), 1e-12)
+    ca = state.wet[i] * model.drag_axial[i]
+    cn = state.wet[i] * model.drag_normal[i]
+    for side in range(2):
+        s = i + side  # the segment to the left, then to the right
+        if model.live[s] == 0.0:
+            continue
+        q = state.tangent[:, s]
+        length = model.length[s] * (state.tension[s] / model.stiffness[s] + 1.0)
+        for a in range(3):
+            for b in range(3):
+                # dF_a/dq_b summed over the chain F <- u_a <- t <- q <- x
+                total = 0.0
+                for c in range(3):
+                    # (I - t t')/size (I - q q')/length, column b
+                    turn = 0.0
+                    for d in range(3):
+                        project = (1.0 if c == d else 0.0) - t[c] * t[d]
+                        turn += project * ((1.0 if d == b else 0.0) - q[d] * q[b])
+                    turn /= size * length
+                    for e in range(3):
+                        force = ca * (speed_a * (1.0 if a == e else 0.0) + ua[a] * ua[e] / speed_a)
+                        force -= cn * (speed_n * (1.0 if a == e else 0.0) + un[a] * un[e] / speed_n)
+                        total += force * (t[e] * u[c] + (along if e == c else 0.0)) * turn
+                # F grows with q, q with x of the far end: K takes the negative
+                if side == 0:
+                    diagonal[i, a, b] -= total
+                    below[i, a, b] += total
+                else:
+                    above[i, a, b] -= total
+                    diagonal[i, a, b] += total
+
+
+@stage
+def _buoyancy(model, state, scratch, diagonal):
+    """Loss of buoyancy as a node rises through the surface, its neighbours with it."""
+    z, wet = state.position[2], state.wet
+    crossing = False
+    for i in range(model.size):
+        crossing |= wet[i] < 1.0
+    if not crossing:
+        return
+    for i in range(model.size):
+        z[i] += SHIFT
+    wet_shares(model, state, scratch)
+    for i in range(model.size):
+        diagonal[i, 2, 2] -= model.buoyancy[i] * wet[i] / (2.0 * SHIFT)
+        z[i] -= 2.0 * SHIFT
+    wet_shares(model, state, scratch)
+    for i in range(model.size):
+        diagonal[i, 2, 2] += model.buoyancy[i] * wet[i] / (2.0 * SHIFT)
+        z[i] += SHIFT
+    wet_shares(model, state, scratch)
+
+
+@kernel
+def stretch_linearly(model, state, tension):
+    """Let segments with `tension` (n,) > 0 push as well as pull, and take these tensions into the state for `fill_tangent`."""
+    for i in range(model.size):
+        if tension[i + 1] > 0.0 and state.tension[i + 1] <= 0.0:
+            q = state.tangent[:, i + 1]
+            length = 0.0
+            for k in range(3):
+                length += q[k] * (state.position[k, i + 1] - state.position[k, i])
+            push = model.stiffness[i + 1] * (length * model.inverse_length[i + 1] - 1.0)
+            for k in range(3):
+                state.force[k, i] += push * q[k]
+                state.force[k, i + 1] -= push * q[k]
+        state.tension[i + 1] = tension[i + 1]
+
+
+@kernel
+def predict_tension(model, state, move, tension):
+    """Tensions (n,) that the segments will have after `move` (3, n), to first order; zero for those that go slack."""
+    for i in range(model.size):
+        q = state.tangent[:, i + 1]
+        length, growth = 0.0, 0.0
+        for k in range(3):
+            length += q[k] * (state.position[k, i + 1] - state.position[k, i])
+            growth += q[k] * (move[k, i + 1] - move[k, i])
+        strain = (length + growth) * model.inverse_length[i + 1] - 1.0
+        tension[i + 1] = max(model.live[i + 1] * model.stiffness[i + 1] * strain, 0.0)

@@ -1,0 +1,373 @@
+"""The façade: one mooring, for the live node, the replay and Python alike."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from .core import explicit
+from .core.model import LOOSE, State, build, new_scratch, new_state
+from .core.readings import new_readings, observe
+from .core.schemes import alphas, step_table
+from .core.stability import step_limit
+from .core.statics import StaticSolver
+from .errors import MooringError
+from .scene import Scene, load_scene
+
+FIDELITIES = ("dynamic",)
+SOLVERS = ("auto", "explicit")
+QUATERNION_TOLERANCE = 1e-3
+IMPLAUSIBLE = 10.0  # times the speed that anything in the scene should reach: beyond, a step has blown up
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """A copy of everything that changes in a mooring; opaque, for `Mooring.restore`."""
+
+    state: State
+    readings: tuple
+    settled: bool
+
+
+@dataclass(frozen=True)
+class History:
+    """Readings of many samples, one row each; k samples, world frame."""
+
+    time: np.ndarray  # (k,) s
+    wrench: np.ndarray  # (k, 6) N, N m
+    anchor_tension: np.ndarray  # (k, lines) N
+    fairlead_tension: np.ndarray  # (k, lines) N
+    anchor_end_force: np.ndarray  # (k, lines, 3) N
+    fairlead_end_force: np.ndarray  # (k, lines, 3) N
+    stretched_length: np.ndarray  # (k, lines) m
+    length_rate: np.ndarray  # (k, lines) m/s
+    coupled_wrenches: np.ndarray  # (k, coupled points, 6) N, N m
+
+
+class Mooring:
+    """Mooring lines between the ground and a moving platform.
+
+    scene: path of a MoorDyn v2 file, or a `Scene`. fidelity: "dynamic". solver: "auto" or "explicit". dt: largest step of the solver (s),
+    None for the largest that is stable; a dt beyond that is not taken. segments: segments of every line, None for the file's.
+
+    pose is (7,): x, y, z (m) and a unit quaternion x, y, z, w; twist is (6,): velocity (m/s) of the reference point and angular velocity
+    (rad/s); all in the world frame, z up from the still water level. A line's fairlead is its coupled end (end B if both or none are).
+    Raises SceneError for a bad scene, ValueError for bad arguments; MooringError when a computation cannot be completed.
+    """
+
+    def __init__(self, scene, fidelity="dynamic", solver="auto", dt=None, segments=None):
+        if fidelity not in FIDELITIES:
+            raise ValueError(f"fidelity {fidelity!r} is not built; expected one of {', '.join(FIDELITIES)}")
+        if solver not in SOLVERS:
+            raise ValueError(f"solver {solver!r} is not built; expected one of {', '.join(SOLVERS)}")
+        if dt is not None and not (np.isfinite(dt) and dt > 0.0):
+            raise ValueError(f"dt is {dt!r}; expected a positive number of seconds, or None")
+        if segments is not None and (int(segments) != segments or segments < 1):
+            raise ValueError(f"segments is {segments!r}; expected a whole number of at least 1, or None")
+        self.scene = scene if isinstance(scene, Scene) else load_scene(Path(scene))
+        self.fidelity = fidelity
+        self.solver = "explicit"
+        self._model, ends = build(self.scene, None if segments is None else int(segments))
+        self._initial_ends = ends
+        self._state = new_state(self._model, ends)
+        self._scratch = new_scratch(self._model)
+        self._statics = StaticSolver(self.scene, self._model)
+        self._readings = new_readings(self._model, 1)
+        self.step_limit = step_limit(self.scene, self._model, dt)
+        self._table = step_table(self.step_limit.axial, np.inf if dt is None else float(dt))
+        self._alphas = alphas()
+        self._report = np.zeros(4)
+        self._time, self._pose, self._twist = np.zeros(1), np.zeros((1, 7)), np.zeros((1, 6))
+        self._settled = False
+        self.line_names = [line.name for line in self.scene.lines]
+        self.coupled_names = [self.scene.points[p].name for p in self._model.coupled_points]
+        self.static_result = None
+
+    # -- doing ------------------------------------------------------------------------------------------------------------------------
+
+    def settle(self, pose, time=0.0):
+        """Static equilibrium with the platform at rest at `pose` (7,), from a cold start; the clock stands at `time` (s) after it."""
+        pose = self._checked_pose(pose)
+        if not np.isfinite(time):
+            raise ValueError(f"time is {time!r}; expected a finite number of seconds")
+        state = _copy(self._state)
+        self._statics.place(state, pose)
+        result = self._statics.solve(state, self._scratch)
+        if not result.converged:
+            raise MooringError(
+                f"the statics did not converge in {result.iterations} iterations: "
+                f"{result.residual:.3g} N out of balance, {result.tolerance:.3g} N asked for"
+            )
+        state.clock[0] = time
+        _assign(self._state, state)
+        self.static_result = result
+        self._settled = True
+        observe(self._model, self._state, 0, self._readings)
+
+    def step(self, t, pose, twist):
+        """Advance to `t` (s), where the platform has `pose` (7,) and `twist` (6,).
+
+        Its motion since the last sample is a cubic Hermite curve in position and rotation. Wrong shapes, NaN, a quaternion that is not of
+        unit length, or time that does not go forward raise ValueError; a step that cannot be completed raises MooringError. Either leaves
+        the mooring as it was.
+        """
+        self._time[0] = self._checked_time(t)
+        self._pose[0] = self._checked_pose(pose)
+        self._twist[0] = self._checked_twist(twist)
+        self._need_settled()
+        self._run(self._time, self._pose, self._twist, self._readings)
+
+    def run(self, times, poses, twists):
+        """`step` through many samples in one call, with the same bits: times (k,), poses (k, 7), twists (k, 6). Returns a History.
+
+        When a step cannot be completed, MooringError is raised with the attribute `history` holding the samples done before it.
+        """
+        times = np.asarray(times, dtype=float).reshape(-1)
+        poses, twists = np.asarray(poses, dtype=float), np.asarray(twists, dtype=float)
+        if poses.shape != (times.size, 7) or twists.shape != (times.size, 6):
+            raise ValueError(f"times {times.shape}, poses {poses.shape}, twists {twists.shape}; expected (k,), (k, 7), (k, 6)")
+        if times.size == 0:
+            return self._history(times, new_readings(self._model, 0))
+        self._need_settled()
+        self._checked_time(times[0])
+        if not (np.isfinite(times).all() and (np.diff(times) > 0.0).all()):
+            raise ValueError("times must be finite and grow from sample to sample")
+        if not np.isfinite(twists).all():
+            raise ValueError("twists hold a number that is not finite")
+        poses = np.array([self._checked_pose(pose) for pose in poses])
+        readings = new_readings(self._model, times.size)
+        try:
+            done = self._run(times, poses, np.ascontiguousarray(twists), readings)
+        except MooringError as error:
+            done = error.samples
+            error.history = self._history(times[:done], _rows(readings, slice(0, done)))
+            raise
+        finally:
+            if done:
+                for mine, row in zip(self._readings, _rows(readings, slice(done - 1, done))):
+                    mine[:] = row
+        return self._history(times, readings)
+
+    def release(self, line_name):
+        """Let go of the fairlead end of a line; it falls from where it is. Raises ValueError for an unknown or loose line."""
+        line = self._line(line_name)
+        end = 2 * line + self._model.fairlead_end[line]
+        if self._state.end_point[end] == LOOSE:
+            raise ValueError(f"{line_name} has been let go already")
+        self._state.end_point[end] = LOOSE
+        if self._settled:
+            explicit.reevaluate(self._model, self._state, self._scratch)
+            observe(self._model, self._state, 0, self._readings)
+
+    def snapshot(self):
+        """A copy of everything that changes, for `restore`."""
+        return Snapshot(_copy(self._state), tuple(array.copy() for array in self._readings), self._settled)
+
+    def restore(self, saved):
+        """Go back to a snapshot of this mooring, bit for bit. Raises ValueError for one of another mooring."""
+        if not isinstance(saved, Snapshot) or saved.state.position.shape != self._state.position.shape:
+            raise ValueError("this is not a snapshot of this mooring")
+        _assign(self._state, saved.state)
+        for mine, theirs in zip(self._readings, saved.readings):
+            mine[:] = theirs
+        self._settled = saved.settled
+
+    # -- reading ----------------------------------------------------------------------------------------------------------------------
+
+    @property
+    def time(self):
+        """Where the mooring stands, s."""
+        return float(self._state.clock[0])
+
+    @property
+    def pose(self):
+        """(7,) of the platform at `time`."""
+        return self._state.pose.copy()
+
+    @property
+    def twist(self):
+        """(6,) of the platform at `time`."""
+        return self._state.twist.copy()
+
+    @property
+    def wrench(self):
+        """(6,) N and N m of the mooring on the platform, about its reference point, world frame."""
+        return self._readings.wrench[0].copy()
+
+    @property
+    def fairlead_tension(self):
+        """(lines,) N, of the end segments at the fairleads."""
+        return self._readings.tension[0, :, 1].copy()
+
+    @property
+    def anchor_tension(self):
+        """(lines,) N, of the end segments at the anchors."""
+        return self._readings.tension[0, :, 0].copy()
+
+    @property
+    def fairlead_end_force(self):
+        """(lines, 3) N of each line on what holds its fairlead end: with the half segment's weight, drag and inertia."""
+        return self._readings.end_force[0, :, 1].copy()
+
+    @property
+    def anchor_end_force(self):
+        """(lines, 3) N of each line on what holds its anchor end."""
+        return self._readings.end_force[0, :, 0].copy()
+
+    @property
+    def coupled_wrenches(self):
+        """(coupled points, 6) N and N m on the platform at each coupled point, world frame; lines are pinned, so the moments are zero."""
+        return _with_moments(self._readings.coupled_force[0])
+
+    @property
+    def stretched_length(self):
+        """(lines,) m."""
+        return self._readings.length[0].copy()
+
+    @property
+    def length_rate(self):
+        """(lines,) m/s."""
+        return self._readings.length_rate[0].copy()
+
+    def node_positions(self, line_name):
+        """(N + 1, 3) m, from end A to end B."""
+        return self._state.position[:, self._nodes(line_name)].T.copy()
+
+    def node_tension(self, line_name):
+        """(N + 1,) N from end A to end B: the mean of the segments on both sides, at the ends the norm of the end force."""
+        line = self._line(line_name)
+        nodes = self._nodes(line_name)
+        segments = self._state.tension[nodes.start + 1 : nodes.stop]
+        tension = np.empty(segments.size + 1)
+        tension[1:-1] = 0.5 * (segments[1:] + segments[:-1])
+        ends = np.linalg.norm(self._readings.end_force[0, line], axis=1)
+        tension[0], tension[-1] = ends if self._model.fairlead_end[line] == 1 else ends[::-1]
+        return tension
+
+    def node_curvature(self, line_name):
+        """(N + 1,) 1/m: 2/l sin of half the angle between the neighbouring segments; zero at the (pinned) ends."""
+        nodes = self._nodes(line_name)
+        tangents = self._state.tangent[:, nodes.start + 1 : nodes.stop]
+        curvature = np.zeros(tangents.shape[1] + 1)
+        curvature[1:-1] = np.linalg.norm(np.diff(tangents, axis=1), axis=0) * self._model.inverse_length[nodes.start + 1]
+        return curvature
+
+    def stiffness(self):
+        """(6, 6) -d wrench / d pose of the static mooring at the present pose, N/m, N, N m; rotations about the world axes."""
+        self._need_settled()
+        state = _copy(self._state)
+        self._statics.place(state, self._state.pose.copy())
+        result = self._statics.solve(state, self._scratch)
+        if not result.converged:
+            raise MooringError(f"the statics at the present pose did not converge: {result.residual:.3g} N out of balance")
+        return self._statics.platform_stiffness(state, self._scratch)
+
+    @property
+    def last_step(self):
+        """What the last interval took: evaluations, steps (not counting retries), retries, step (s)."""
+        evaluations, steps, retries, dt = self._report
+        return {"evaluations": int(evaluations), "steps": int(steps), "retries": int(retries), "dt": float(dt)}
+
+    # -- inside -----------------------------------------------------------------------------------------------------------------------
+
+    def _run(self, times, poses, twists, readings):
+        speeds = np.abs(twists).max(axis=0)
+        arm = np.abs(self._model.point_place[self._model.coupled_points]).max(initial=0.0)
+        moved = np.diff(poses[:, :3], axis=0, prepend=self._state.pose[None, :3])
+        spans = np.diff(times, prepend=self._state.clock[0])
+        carried = np.abs(moved / spans[:, None]).max() + np.linalg.norm(speeds[:3]) + arm * (np.linalg.norm(speeds[3:]) + np.pi / spans.min())
+        limit = IMPLAUSIBLE * (self._natural_speed() + carried)
+        status, done = explicit.run(
+            self._model, self._state, self._scratch, self._table, self._alphas, times, poses, twists, limit, self._report, readings
+        )
+        if status != explicit.DONE:
+            error = MooringError(
+                f"the step to t = {times[done]:.6g} s ran away (speeds above {limit:.3g} m/s) even with a step of "
+                f"{self.step_limit.dt / 2**explicit.HALVINGS:.3g} s; the mooring stands at t = {self.time:.6g} s"
+            )
+            error.samples = done
+            raise error
+        return done
+
+    def _natural_speed(self):
+        """A speed (m/s) that a sound mooring hardly passes: free fall through its height, the current, and 5 % strain let loose."""
+        env = self.scene.environment
+        fall = env.depth + max(line.length for line in self.scene.lines)
+        recoil = 0.05 * max(np.sqrt(line.type.stiffness / line.type.mass) for line in self.scene.lines)
+        return np.sqrt(2.0 * env.gravity * fall) + np.linalg.norm(env.current) + recoil
+
+    def _need_settled(self):
+        if not self._settled:
+            raise ValueError("the mooring has not been settled; call settle(pose) first")
+
+    def _checked_time(self, t):
+        t = float(t)
+        if not np.isfinite(t):
+            raise ValueError(f"t is {t!r}; expected a finite number of seconds")
+        if not t > self._state.clock[0]:
+            raise ValueError(f"t is {t!r} s; expected a time after the present one, {self._state.clock[0]!r} s")
+        return t
+
+    @staticmethod
+    def _checked_pose(pose):
+        pose = np.array(pose, dtype=float)
+        if pose.shape != (7,):
+            raise ValueError(f"pose has shape {pose.shape}; expected (7,): x, y, z, qx, qy, qz, qw")
+        if not np.isfinite(pose).all():
+            raise ValueError(f"pose {pose} holds a number that is not finite")
+        norm = np.sqrt(pose[3:] @ pose[3:])
+        if abs(norm - 1.0) > QUATERNION_TOLERANCE:
+            raise ValueError(f"pose's quaternion has length {norm:.6g}; expected 1")
+        pose[3:] /= norm
+        return pose
+
+    @staticmethod
+    def _checked_twist(twist):
+        twist = np.asarray(twist, dtype=float)
+        if twist.shape != (6,):
+            raise ValueError(f"twist has shape {twist.shape}; expected (6,): vx, vy, vz, wx, wy, wz")
+        if not np.isfinite(twist).all():
+            raise ValueError(f"twist {twist} holds a number that is not finite")
+        return twist
+
+    def _line(self, name):
+        if name not in self.line_names:
+            raise ValueError(f"there is no line {name!r}; expected one of {', '.join(self.line_names)}")
+        return self.line_names.index(name)
+
+    def _nodes(self, line_name):
+        line = self._line(line_name)
+        first = int(self._model.first_node[line])
+        return slice(first, first + int(self._model.segments[line]) + 1)
+
+    @staticmethod
+    def _history(times, readings):
+        return History(
+            time=times.copy(),
+            wrench=readings.wrench,
+            anchor_tension=readings.tension[:, :, 0],
+            fairlead_tension=readings.tension[:, :, 1],
+            anchor_end_force=readings.end_force[:, :, 0],
+            fairlead_end_force=readings.end_force[:, :, 1],
+            stretched_length=readings.length,
+            length_rate=readings.length_rate,
+            coupled_wrenches=_with_moments(readings.coupled_force),
+        )
+
+
+def _with_moments(forces):
+    """Wrenches (..., 6) of pinned points from their forces (..., 3)."""
+    return np.concatenate([forces, np.zeros_like(forces)], axis=-1)
+
+
+def _rows(readings, rows):
+    return type(readings)(*(array[rows] for array in readings))
+
+
+def _copy(state):
+    return State(*(array.copy() for array in state))
+
+
+def _assign(state, other):
+    for mine, theirs in zip(state, other):
+        mine[:] = theirs
