@@ -7,16 +7,27 @@ import numpy as np
 
 from .console import reading
 
-FIDELITIES = ("linear", "quasi_static", "dynamic")
-SOLVERS = ("explicit", "implicit", "auto")
-
 
 def add_model_arguments(parser):
     """--fidelity, --solver, --dt, --segments: how the scene is computed. Left out, the scene decides."""
-    parser.add_argument("--fidelity", choices=FIDELITIES, help="how much physics (default: chosen from the scene)")
-    parser.add_argument("--solver", choices=SOLVERS, help="how the dynamics are stepped (default: auto)")
+    parser.add_argument("--fidelity", type=fidelity, metavar="F", help="how much physics: linear, quasi_static or dynamic (default: dynamic)")
+    parser.add_argument("--solver", type=solver, metavar="S", help="how the dynamics are stepped: explicit, implicit or auto (default: auto)")
     parser.add_argument("--dt", type=positive, metavar="S", help="time step in s (default: the largest stable one, with a margin)")
     parser.add_argument("--segments", type=count, metavar="N", help="segments of every line (default: as in the scene)")
+
+
+def fidelity(text):
+    """One of the fidelities that are built; for argparse."""
+    from mooring_ros.mooring import FIDELITIES
+
+    return _one_of(text, FIDELITIES)
+
+
+def solver(text):
+    """One of the solvers that are built; for argparse."""
+    from mooring_ros.mooring import SOLVERS
+
+    return _one_of(text, SOLVERS)
 
 
 def positive(text):
@@ -67,6 +78,12 @@ def load_mooring(scene, fidelity=None, solver=None, dt=None, segments=None):
     chosen = {"fidelity": fidelity, "solver": solver, "dt": dt, "segments": segments}
     with reading(scene):
         return Mooring(scene, **{name: value for name, value in chosen.items() if value is not None})
+
+
+def _one_of(text, built):
+    if text not in built:
+        raise argparse.ArgumentTypeError(f"{text!r} is not there, expected one of {', '.join(built)}")
+    return text
 
 
 def _number(text):

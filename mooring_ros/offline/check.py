@@ -127,7 +127,7 @@ def _text(found):
         *(f"  {name}: {_g(step)} s" if step else f"  {name}: no limit" for name, step in limit["limits"].items()),
         "",
         f"Cost: {_g(cost['real_time_factor'])} times real time, measured just now on this machine"
-        f" ({_g(cost['simulated'])} s simulated in {_g(cost['elapsed'])} s)",
+        f" ({_g(cost['simulated'])} s simulated in {_g(cost['elapsed'])} s, a sample of the motion every {_g(cost['sample'])} s)",
     ]
     if found["warnings"]:
         text += ["", "Warnings", *(f"  {warning}" for warning in found["warnings"])]

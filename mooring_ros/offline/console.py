@@ -58,6 +58,9 @@ class Progress:
         self._next = self._started + 0.2
 
     def __enter__(self):
+        if self._shown:
+            self._stream.write(f"{self._what}: preparing")
+            self._stream.flush()
         return self
 
     def update(self, done):

@@ -13,13 +13,16 @@ from .stamps import times_of
 class Done:
     """What was just done to the mooring, which now stands at its answer (a release has none).
 
-    stamp: ns, of the source; time: s, for tables, by the source's clock; record: as in the schedule (15 floats).
+    stamp: ns, of the source; time: s, for tables, by the source's clock; record: as in the schedule (15 floats); pose (7,), twist (6,): of the
+    platform by the source, world axes, None for a release.
     """
 
     kind: int  # schedule.SETTLE, STEP or RELEASE
     stamp: int
     time: float
     record: list
+    pose: np.ndarray | None
+    twist: np.ndarray | None
 
 
 def run_motion(mooring, times, poses, twists, stamps):
@@ -30,10 +33,10 @@ def run_motion(mooring, times, poses, twists, stamps):
     for row, (instant, stamp) in enumerate(zip(times.tolist(), stamps.tolist())):
         if row == 0:
             mooring.settle(poses[0], time=instant)
-            yield Done(schedule.SETTLE, stamp, instant, schedule.encode_settle(instant, poses[0]))
+            yield Done(schedule.SETTLE, stamp, instant, schedule.encode_settle(instant, poses[0]), poses[0], twists[0])
         else:
             mooring.step(instant, poses[row], twists[row])
-            yield Done(schedule.STEP, stamp, instant, schedule.encode_step(instant, poses[row], twists[row]))
+            yield Done(schedule.STEP, stamp, instant, schedule.encode_step(instant, poses[row], twists[row]), poses[row], twists[row])
 
 
 def run_schedule(mooring, actions, stamps, time_factor):
@@ -55,4 +58,4 @@ def run_schedule(mooring, actions, stamps, time_factor):
         else:
             mooring.release(mooring.line_names[action.line])
             record = schedule.encode_release(action.time, action.line)
-        yield Done(action.kind, stamp, offset + action.time / time_factor, record)
+        yield Done(action.kind, stamp, offset + action.time / time_factor, record, action.pose, action.twist)

@@ -1,7 +1,6 @@
 """The work of `mooring replay`: run, write, stop cleanly."""
 
-import signal
-import threading
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -13,6 +12,8 @@ from mooring_ros.recording.reader import Recording
 
 from .console import ComputationFailed, Progress, UsageError
 from .identical import Identical
+from .interrupt import Stop
+from .pace import Pace
 from .replay_output import Answer, CsvOutput, McapOutput, ODOMETRY, PLATFORM_FRAME, WORLD_FRAME
 from .replay_run import run_motion, run_schedule
 from .resample import resample
@@ -20,10 +21,22 @@ from .resample import resample
 INPUT_TYPES = (ODOMETRY, "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/TwistStamped")
 
 
+@dataclass(frozen=True)
+class Replayed:
+    """answers written; simulated: s; elapsed: s of wall time; speed: simulated over wall time, without the first step and what it waits for
+    (compiling); identical: None when the motion came with no tensions."""
+
+    answers: int
+    simulated: float
+    elapsed: float
+    speed: float
+    identical: Identical | None
+
+
 def replay(args, mooring, motion, settings):
     """Run the motion through the mooring and write the outputs that args name.
 
-    settings: the node's parameters that hold. Returns (answers, simulated s, Identical or None). Whatever ends it, the outputs are closed and readable.
+    settings: the node's parameters that hold. Returns Replayed. Whatever ends it, the outputs are closed and readable.
     Raises ComputationFailed, UsageError, KeyboardInterrupt.
     """
     adapter = Adapter(**{name: settings[name] for name in ("twist_frame", "convention", "wrench_frame", "scale", "density_ratio")})
@@ -37,27 +50,27 @@ def replay(args, mooring, motion, settings):
         steps = run_schedule(mooring, motion.schedule, motion.schedule_stamps, adapter.time_factor)
     else:
         steps = run_motion(mooring, *_samples(args, motion))
-    answers, first, last = 0, None, None
+    answers, pace = 0, Pace()
     with Outputs(args, mooring, settings) as outputs, Stop() as stop, Progress("replay", float(np.ptp(motion.times))) as progress:
         try:
             for done in steps:
-                outputs.write_inputs(inputs, done, mooring)
+                outputs.write_inputs(inputs, done)
                 if done.kind != schedule.RELEASE:
                     answer = _answer(mooring, composed, adapter, done)
                     outputs.write(answer, mooring, composed)
                     if identical:
                         identical.add(answer.stamp, answer.anchor_tension, answer.fairlead_tension)
                     answers += 1
-                first, last = done.time if first is None else first, done.time
-                progress.update(last - first)
+                pace.note(done.time)
+                progress.update(pace.simulated)
                 if stop.asked:
                     raise KeyboardInterrupt
-            outputs.write_inputs(inputs, None, mooring)
+            outputs.write_inputs(inputs, None)
         except MooringError as error:
-            raise ComputationFailed(_after(motion, last, error)) from error
+            raise ComputationFailed(_after(motion, pace.last, error)) from error
         except ValueError as error:
-            raise UsageError(_after(motion, last, error)) from error
-    return answers, last - first, identical if identical and identical.total else None
+            raise UsageError(_after(motion, pace.last, error)) from error
+    return Replayed(answers, pace.simulated, pace.elapsed, pace.speed, identical if identical and identical.total else None)
 
 
 class Outputs:
@@ -92,11 +105,11 @@ class Outputs:
             except OSError as error:
                 raise ComputationFailed(f"{error.filename}: {error.strerror}") from error
 
-    def write_inputs(self, inputs, done, mooring):
+    def write_inputs(self, inputs, done):
         """What led to the answer: the recording's own messages up to its stamp (all that are left for None), or the motion; and the step."""
         if inputs is None:
             if done is not None:
-                self._mcap.write_motion(done.stamp, mooring.pose, mooring.twist)
+                self._mcap.write_motion(done.stamp, done.pose, done.twist)
         else:
             while (entry := self._next_input or next(inputs, None)) is not None:
                 self._next_input = entry
@@ -106,28 +119,6 @@ class Outputs:
                 self._next_input = None
         if done is not None:
             self._mcap.write_step(done.stamp, done.record)
-
-
-class Stop:
-    """Notes Ctrl-C instead of being torn apart by it; a second one tears."""
-
-    def __init__(self):
-        self.asked = False
-        self._before = None
-
-    def __enter__(self):
-        if threading.current_thread() is threading.main_thread():
-            self._before = signal.signal(signal.SIGINT, self._ask)
-        return self
-
-    def __exit__(self, *_):
-        if self._before is not None:
-            signal.signal(signal.SIGINT, self._before)
-
-    def _ask(self, *_):
-        if self.asked:
-            raise KeyboardInterrupt
-        self.asked = True
 
 
 def _samples(args, motion):

@@ -79,9 +79,15 @@ def _text(scene, solution):
             table(["fx", "fy", "fz", "mx", "my", "mz"], [map(_number, wrench)]),
             "",
             "Stiffness −∂wrench/∂pose (N/m, N/rad, N·m/m, N·m/rad)",
-            table(["", *_AXES], [[name, *map(_number, row)] for name, row in zip(_AXES, solution["stiffness"])]),
+            table(["", *_AXES], [[name, *map(_number, row)] for name, row in zip(_AXES, _without_rounding(solution["stiffness"]))]),
         ]
     )
+
+
+def _without_rounding(matrix):
+    """The matrix with zeros where only rounding is left, for the eye."""
+    matrix = np.array(matrix)
+    return np.where(np.abs(matrix) < 1e-12 * np.abs(matrix).max(), 0.0, matrix).tolist()
 
 
 def _number(value):

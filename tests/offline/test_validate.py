@@ -78,9 +78,9 @@ def test_the_report_is_one_file_that_needs_no_network(pair, tmp_path, mooring):
 
 
 def test_a_replay_can_be_held_against_another(scene, motion, mooring, tmp_path):
-    mooring("replay", scene, motion, "-o", tmp_path / "coarse.mcap", "--segments", "5")
+    mooring("replay", scene, motion, "-o", tmp_path / "coarse.mcap", "--segments", "7")
     mooring("replay", scene, motion, "-o", tmp_path / "fine.mcap", "--csv", tmp_path / "fine.csv")
     for reference in ("fine.mcap", "fine.csv"):
         found = mooring("validate", tmp_path / "coarse.mcap", tmp_path / reference, "--json").json()
         assert len(found["pairs"]) == 4
-        assert all(pair["correlation"] > 0.9 and abs(pair["mean_difference_percent"]) < 5.0 for pair in found["pairs"])
+        assert all(pair["correlation"] > 0.9 and 0.0 < abs(pair["mean_difference_percent"]) < 10.0 for pair in found["pairs"])
