@@ -124,6 +124,7 @@ def _text(found):
         *(f"  {state:3}  {name.ljust(width)}  {why}" for state, name, why in switched),
         "",
         f"Largest stable step: {_g(limit['dt'])} s, limited by {limit['limited_by']}",
+        "Limits of a plain leapfrog step",
         *(f"  {name}: {_g(step)} s" if step else f"  {name}: no limit" for name, step in limit["limits"].items()),
         "",
         f"Cost: {_g(cost['real_time_factor'])} times real time, measured just now on this machine"

@@ -17,14 +17,13 @@ class Identical:
     """
 
     def __init__(self, entries):
-        """entries: the messages of a recording; those of its tensions are taken."""
+        """entries: the messages of a recording on its topic of tensions."""
         self._recorded = defaultdict(list)
         self._replayed = defaultdict(list)
         self.total = 0
         for entry in entries:
-            if entry.topic.endswith(TENSIONS):
-                self._recorded[entry.publish_time].append(np.array(deserialize_message(entry.data, Float64MultiArray).data).tobytes())
-                self.total += 1
+            self._recorded[entry.publish_time].append(np.array(deserialize_message(entry.data, Float64MultiArray).data).tobytes())
+            self.total += 1
 
     def add(self, stamp, anchor_tension, fairlead_tension):
         """A replayed answer, as it goes out: (L,) N each."""

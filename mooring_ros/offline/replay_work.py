@@ -11,7 +11,7 @@ from mooring_ros.recording import schedule
 from mooring_ros.recording.reader import Recording
 
 from .console import ComputationFailed, Progress, UsageError
-from .identical import Identical
+from .identical import TENSIONS, Identical
 from .interrupt import Stop
 from .pace import Pace
 from .replay_output import Answer, CsvOutput, McapOutput, ODOMETRY, PLATFORM_FRAME, WORLD_FRAME
@@ -45,13 +45,14 @@ def replay(args, mooring, motion, settings):
     identical = inputs = None
     if motion.schedule is not None:
         recording = Recording(motion.path)
-        identical = Identical(recording.messages())
-        inputs = recording.messages([topic for topic, (kind, _) in recording.topics().items() if kind in INPUT_TYPES])
+        topics = {topic: kind for topic, (kind, _) in recording.topics().items()}
+        identical = Identical(recording.messages([topic for topic in topics if topic.endswith(TENSIONS)]))
+        inputs = recording.messages([topic for topic, kind in topics.items() if kind in INPUT_TYPES])
         steps = run_schedule(mooring, motion.schedule, motion.schedule_stamps, adapter.time_factor)
     else:
         steps = run_motion(mooring, *_samples(args, motion))
     answers, pace = 0, Pace()
-    with Outputs(args, mooring, settings) as outputs, Stop() as stop, Progress("replay", float(np.ptp(motion.times))) as progress:
+    with Stop() as stop, Outputs(args, mooring, settings) as outputs, Progress("replay", float(np.ptp(motion.times))) as progress:
         try:
             for done in steps:
                 outputs.write_inputs(inputs, done)
