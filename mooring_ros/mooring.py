@@ -6,9 +6,10 @@ from pathlib import Path
 import numpy as np
 
 from .core import explicit
+from .core.forces import evaluate_once
 from .core.model import LOOSE, State, build, new_scratch, new_state
 from .core.readings import new_readings, observe
-from .core.schemes import alphas, step_table
+from .core.schemes import step_table
 from .core.stability import step_limit
 from .core.statics import StaticSolver
 from .errors import MooringError
@@ -74,8 +75,7 @@ class Mooring:
         self._statics = StaticSolver(self.scene, self._model)
         self._readings = new_readings(self._model, 1)
         self.step_limit = step_limit(self.scene, self._model, dt)
-        self._table = step_table(self.step_limit.axial, np.inf if dt is None else float(dt))
-        self._alphas = alphas()
+        self._table = step_table(self.step_limit.axial, self.step_limit.dt)
         self._report = np.zeros(4)
         self._time, self._pose, self._twist = np.zeros(1), np.zeros((1, 7)), np.zeros((1, 6))
         self._settled = False
@@ -87,7 +87,7 @@ class Mooring:
 
     def settle(self, pose, time=0.0):
         """Static equilibrium with the platform at rest at `pose` (7,), from a cold start; the clock stands at `time` (s) after it."""
-        pose = self._checked_pose(pose)
+        pose = _checked_poses(_shaped(pose, (7,), "pose", "x, y, z, qx, qy, qz, qw"))
         if not np.isfinite(time):
             raise ValueError(f"time is {time!r}; expected a finite number of seconds")
         state = _copy(self._state)
@@ -112,8 +112,8 @@ class Mooring:
         the mooring as it was.
         """
         self._time[0] = self._checked_time(t)
-        self._pose[0] = self._checked_pose(pose)
-        self._twist[0] = self._checked_twist(twist)
+        self._pose[0] = _checked_poses(_shaped(pose, (7,), "pose", "x, y, z, qx, qy, qz, qw"))
+        self._twist[0] = _checked_twists(_shaped(twist, (6,), "twist", "vx, vy, vz, wx, wy, wz"))
         self._need_settled()
         self._run(self._time, self._pose, self._twist, self._readings)
 
@@ -132,9 +132,7 @@ class Mooring:
         self._checked_time(times[0])
         if not (np.isfinite(times).all() and (np.diff(times) > 0.0).all()):
             raise ValueError("times must be finite and grow from sample to sample")
-        if not np.isfinite(twists).all():
-            raise ValueError("twists hold a number that is not finite")
-        poses = np.array([self._checked_pose(pose) for pose in poses])
+        poses, twists = _checked_poses(poses), np.ascontiguousarray(_checked_twists(twists))
         readings = new_readings(self._model, times.size)
         try:
             done = self._run(times, poses, np.ascontiguousarray(twists), readings)
@@ -156,7 +154,8 @@ class Mooring:
             raise ValueError(f"{line_name} has been let go already")
         self._state.end_point[end] = LOOSE
         if self._settled:
-            explicit.reevaluate(self._model, self._state, self._scratch)
+            settings = self._state.settings
+            evaluate_once(self._model, self._state, self._scratch, settings[0], settings[1], bool(settings[2]))
             observe(self._model, self._state, 0, self._readings)
 
     def snapshot(self):
@@ -278,7 +277,7 @@ class Mooring:
         carried = np.abs(moved / spans[:, None]).max() + np.linalg.norm(speeds[:3]) + arm * (np.linalg.norm(speeds[3:]) + np.pi / spans.min())
         limit = IMPLAUSIBLE * (self._natural_speed() + carried)
         status, done = explicit.run(
-            self._model, self._state, self._scratch, self._table, self._alphas, times, poses, twists, limit, self._report, readings
+            self._model, self._state, self._scratch, self._table, times, poses, twists, limit, self._report, readings
         )
         if status != explicit.DONE:
             error = MooringError(
@@ -308,28 +307,6 @@ class Mooring:
             raise ValueError(f"t is {t!r} s; expected a time after the present one, {self._state.clock[0]!r} s")
         return t
 
-    @staticmethod
-    def _checked_pose(pose):
-        pose = np.array(pose, dtype=float)
-        if pose.shape != (7,):
-            raise ValueError(f"pose has shape {pose.shape}; expected (7,): x, y, z, qx, qy, qz, qw")
-        if not np.isfinite(pose).all():
-            raise ValueError(f"pose {pose} holds a number that is not finite")
-        norm = np.sqrt(pose[3:] @ pose[3:])
-        if abs(norm - 1.0) > QUATERNION_TOLERANCE:
-            raise ValueError(f"pose's quaternion has length {norm:.6g}; expected 1")
-        pose[3:] /= norm
-        return pose
-
-    @staticmethod
-    def _checked_twist(twist):
-        twist = np.asarray(twist, dtype=float)
-        if twist.shape != (6,):
-            raise ValueError(f"twist has shape {twist.shape}; expected (6,): vx, vy, vz, wx, wy, wz")
-        if not np.isfinite(twist).all():
-            raise ValueError(f"twist {twist} holds a number that is not finite")
-        return twist
-
     def _line(self, name):
         if name not in self.line_names:
             raise ValueError(f"there is no line {name!r}; expected one of {', '.join(self.line_names)}")
@@ -353,6 +330,29 @@ class Mooring:
             length_rate=readings.length_rate,
             coupled_wrenches=_with_moments(readings.coupled_force),
         )
+
+
+def _shaped(values, shape, name, meaning):
+    values = np.asarray(values, dtype=float)
+    if values.shape != shape:
+        raise ValueError(f"{name} has shape {values.shape}; expected {shape}: {meaning}")
+    return values
+
+
+def _checked_poses(poses):
+    """Copies of poses (..., 7) with unit quaternions; ValueError when they are not finite or far from unit length."""
+    if not np.isfinite(poses).all():
+        raise ValueError("a pose holds a number that is not finite")
+    norm = np.sqrt((poses[..., 3:] ** 2).sum(axis=-1, keepdims=True))
+    if (np.abs(norm - 1.0) > QUATERNION_TOLERANCE).any():
+        raise ValueError(f"a pose's quaternion has length {norm.flat[np.abs(norm - 1.0).argmax()]:.6g}; expected 1")
+    return np.concatenate([poses[..., :3], poses[..., 3:] / norm], axis=-1)
+
+
+def _checked_twists(twists):
+    if not np.isfinite(twists).all():
+        raise ValueError("a twist holds a number that is not finite")
+    return twists
 
 
 def _with_moments(forces):

@@ -3,11 +3,11 @@
 import numpy as np
 
 from .cache import kernel, stage
-from .forces import evaluate
+from .forces import evaluate, evaluate_once
 from .guard import recall, runaway, save
 from .platform import start_motion
 from .points import place_coupled_points
-from .readings import observe
+from .readings import show
 from .schemes import LEAPFROG
 from .seabed import set_bed_relief
 from .surface import all_wet, reaches_above
@@ -16,7 +16,8 @@ DONE, RUNAWAY = 0, 1  # status codes
 
 CHUNK = 64  # steps between two looks at the guard
 HALVINGS = 6  # of the step, before an interval is given up
-SURFACE_MARGIN = 1.0  # m below the surface at which wet shares begin to be computed
+DRAG_SAFETY = 0.9  # of the Euler step at which drag would turn a velocity round
+SURFACE_MARGIN, LIKELY_SPEED = 1.0, 5.0  # m, m/s: how far below the surface nodes may be before wet shares matter in a chunk
 
 
 @stage
@@ -32,34 +33,27 @@ def choose_step(table, duration):
 
 
 @stage
-def adapt(model, state, settings_h, row):
-    """Set what the evaluations depend on from the step `settings_h` (s) and the scheme's row of the table."""
-    state.settings[0] = settings_h * row[2]
-    state.settings[1] = settings_h * row[3]
-    state.settings[2] = settings_h * settings_h * row[4]
-    set_bed_relief(model, state, state.settings[1], state.settings[2])
+def adapt(model, state, euler_step):
+    """Set what the evaluations depend on from the Euler step (s) of which the scheme is made."""
+    state.settings[0] = euler_step / DRAG_SAFETY
+    state.settings[1] = euler_step
+    set_bed_relief(model, state, euler_step)
 
 
 @stage
-def look_at_surface(model, state, reach):
-    """Compute wet shares only when something may come out of the water within `reach` (m)."""
-    surfaced = reaches_above(model, state, -SURFACE_MARGIN - reach)
-    if not surfaced and state.settings[3] != 0.0:
+def look_at_surface(model, state, margin):
+    """Compute wet shares only when a node is less than `margin` (m) below the surface, or above it."""
+    surfaced = reaches_above(model, state, -margin)
+    if not surfaced and state.settings[2] != 0.0:
         all_wet(model, state)
-    state.settings[3] = 1.0 if surfaced else 0.0
+    state.settings[2] = 1.0 if surfaced else 0.0
 
 
-@kernel
+@stage
 def evaluate_at(model, state, scratch, s):
     """Evaluate with the coupled points at s of the interval in scratch.motion and the settings in the state."""
     place_coupled_points(model, state, scratch.motion, s)
-    evaluate(model, state, scratch, state.settings[0], state.settings[3] != 0.0)
-
-
-@kernel
-def reevaluate(model, state, scratch):
-    """Evaluate again where the state stands, after something but its motion has changed."""
-    evaluate(model, state, scratch, state.settings[0], state.settings[3] != 0.0)
+    evaluate_once(model, state, scratch, state.settings[0], state.settings[1], state.settings[2] != 0.0)
 
 
 @stage
@@ -71,13 +65,24 @@ def start_step(model, state, scratch):
 
 
 @stage
-def stabilised_stage(model, state, scratch, c):
-    """y = y_0 + c f(y)."""
+def euler_stage(model, state, h):
     position, velocity, acceleration = state.position, state.velocity, state.acceleration
     for k in range(3):
         for i in range(model.size):
-            position[k, i] = scratch.position[k, i] + c * velocity[k, i]
-            velocity[k, i] = scratch.velocity[k, i] + c * acceleration[k, i]
+            position[k, i] += h * velocity[k, i]
+            velocity[k, i] += h * acceleration[k, i]
+
+
+@stage
+def last_stage(model, state, scratch, h, stages):
+    """y = (y_0 + (s - 1) (y + h f(y))) / s."""
+    position, velocity, acceleration = state.position, state.velocity, state.acceleration
+    old = 1.0 / stages
+    new = 1.0 - old
+    for k in range(3):
+        for i in range(model.size):
+            position[k, i] = old * scratch.position[k, i] + new * (position[k, i] + h * velocity[k, i])
+            velocity[k, i] = old * scratch.velocity[k, i] + new * (velocity[k, i] + h * acceleration[k, i])
 
 
 @stage
@@ -90,7 +95,7 @@ def leapfrog_stage(model, state, h):
 
 
 @stage
-def take_steps(model, state, scratch, alphas, evaluations, h, first, count, steps):
+def take_steps(model, state, scratch, evaluations, h, first, count, steps):
     """Steps first .. first + count - 1 of `steps` over the interval; accelerations must be those of the current state."""
     ds = 1.0 / steps
     for j in range(first, first + count):
@@ -98,27 +103,30 @@ def take_steps(model, state, scratch, alphas, evaluations, h, first, count, step
             start_step(model, state, scratch)
         for k in range(evaluations):
             if evaluations == LEAPFROG:
-                alpha = 1.0
+                at = 1.0
                 leapfrog_stage(model, state, h)
+            elif k < evaluations - 1:
+                at = (k + 1) / (evaluations - 1)
+                euler_stage(model, state, h / (evaluations - 1))
             else:
-                alpha = alphas[evaluations, k]
-                stabilised_stage(model, state, scratch, alpha * h)
-            place_coupled_points(model, state, scratch.motion, (j + alpha) * ds)
-            evaluate(model, state, scratch, state.settings[0], state.settings[3] != 0.0)
+                at = 1.0
+                last_stage(model, state, scratch, h / (evaluations - 1), evaluations)
+            place_coupled_points(model, state, scratch.motion, (j + at) * ds)
+            evaluate(model, state, scratch, state.settings[0], state.settings[1], state.settings[2] != 0.0)
 
 
-@kernel
-def advance(model, state, scratch, table, alphas, time, pose, twist, speed_limit, report):
+@stage
+def advance(model, state, scratch, table, time, pose, twist, speed_limit, report):
     """Advance `state` to `time` (s), where the platform has `pose` (7,) and `twist` (6,). Returns a status code.
 
-    `table`, `alphas`: from `schemes`. A chunk of steps that ends in a runaway is taken again from its start with half the step, and
+    `table`: from `schemes.step_table`. A chunk of steps that ends in a runaway is taken again from its start with half the step, and
     refused after `HALVINGS`: the state is then as it was. `report` (4,) gets evaluations, steps, retries and the step (s).
     """
     duration = time - state.clock[0]
     start_motion(state.pose, state.twist, pose, twist, duration, scratch.motion)
     row, steps = choose_step(table, duration)
     evaluations = int(table[row, 0])
-    previous = (state.settings[0], state.settings[1], state.settings[2], state.settings[3])
+    previous = (state.settings[0], state.settings[1], state.settings[2])
     save(model, state, scratch.saved[0])
     chunks = (steps + CHUNK - 1) // CHUNK
     retries, taken = 0, 0
@@ -131,11 +139,11 @@ def advance(model, state, scratch, table, alphas, time, pose, twist, speed_limit
         finer, failed = 1, True
         for _ in range(HALVINGS + 1):
             h = duration / (steps * finer)
-            adapt(model, state, h, table[row])
-            look_at_surface(model, state, count * finer * h * speed_limit * 0.01)
+            adapt(model, state, h / table[row, 2])
+            look_at_surface(model, state, SURFACE_MARGIN + count * finer * h * LIKELY_SPEED)
             if finer > 1:
                 evaluate_at(model, state, scratch, begin / steps)
-            take_steps(model, state, scratch, alphas, evaluations, h, begin * finer, count * finer, steps * finer)
+            take_steps(model, state, scratch, evaluations, h, begin * finer, count * finer, steps * finer)
             taken += count * finer
             failed = runaway(model, state, speed_limit)
             if not failed:
@@ -145,10 +153,10 @@ def advance(model, state, scratch, table, alphas, time, pose, twist, speed_limit
             retries += 1
         if failed:
             recall(model, state, scratch.saved[0])
-            for i in range(4):
+            for i in range(3):
                 state.settings[i] = previous[i]
-            set_bed_relief(model, state, previous[1], previous[2])
-            if previous[3] == 0.0:
+            set_bed_relief(model, state, previous[1])
+            if previous[2] == 0.0:
                 all_wet(model, state)
             evaluate_at(model, state, scratch, 0.0)
             return RUNAWAY
@@ -163,11 +171,11 @@ def advance(model, state, scratch, table, alphas, time, pose, twist, speed_limit
 
 
 @kernel
-def run(model, state, scratch, table, alphas, times, poses, twists, speed_limit, report, readings):
+def run(model, state, scratch, table, times, poses, twists, speed_limit, report, readings):
     """Advance through samples: times (k,), poses (k, 7), twists (k, 6); readings get a row for each. Returns (status, samples done)."""
     for sample in range(times.size):
-        status = advance(model, state, scratch, table, alphas, times[sample], poses[sample], twists[sample], speed_limit, report)
+        status = advance(model, state, scratch, table, times[sample], poses[sample], twists[sample], speed_limit, report)
         if status != DONE:
             return status, sample
-        observe(model, state, sample, readings)
+        show(model, state, sample, readings)
     return DONE, times.size

@@ -1,6 +1,6 @@
 """One evaluation of the equations of motion: the stages in their order."""
 
-from .cache import stage
+from .cache import kernel, stage
 from .inertia import accelerations
 from .points import carry_ends, hold_prescribed, move_free_points
 from .seabed import bed_contact
@@ -10,10 +10,10 @@ from .water import water_loads
 
 
 @stage
-def evaluate(model, state, scratch, drag_time, surfaced):
+def evaluate(model, state, scratch, drag_time, bed_step, surfaced):
     """Forces and accelerations of all nodes from positions and velocities; prescribed points must stand in place.
 
-    `drag_time` (s): see `water_loads`. `surfaced`: some of the mooring may be above water. Otherwise `state.wet` must be ones.
+    `drag_time` (s): see `water_loads`; `bed_step` (s): see `bed_contact`. `surfaced`: some of the mooring may be above water. Otherwise `state.wet` must be ones.
     """
     carry_ends(model, state)
     segment_tensions(model, state)
@@ -21,7 +21,13 @@ def evaluate(model, state, scratch, drag_time, surfaced):
     if surfaced:
         wet_shares(model, state, scratch)
     water_loads(model, state, drag_time)
-    bed_contact(model, state)
+    bed_contact(model, state, bed_step)
     accelerations(model, state)
     move_free_points(model, state)
     hold_prescribed(model, state)
+
+
+@kernel
+def evaluate_once(model, state, scratch, drag_time, bed_step, surfaced):
+    """`evaluate`, compiled once for all callers outside the stepping loop."""
+    evaluate(model, state, scratch, drag_time, bed_step, surfaced)

@@ -82,7 +82,7 @@ class State(NamedTuple):
     inertia_axial: np.ndarray  # (n,), kg
     bed_relief: np.ndarray  # (n,): factor on the vertical acceleration of a node in contact, 0..1
     end_point: np.ndarray  # (E,) index of the point that holds the end, or LOOSE
-    settings: np.ndarray  # (4,) of the last evaluation: drag time (s), bed times (s, s^2), 1 where the surface was looked at
+    settings: np.ndarray  # (3,) of the last evaluation: drag time (s), Euler step of the bed (s), 1 if wet shares were computed
 
 
 class Scratch(NamedTuple):
@@ -227,7 +227,7 @@ def new_state(model, end_point):
         inertia_axial=np.ones(n),
         bed_relief=np.ones(n),
         end_point=end_point.copy(),
-        settings=np.zeros(4),
+        settings=np.zeros(3),
     )
 
 

@@ -67,8 +67,8 @@ def _reaction(model, state, node, a):
     )
 
 
-@kernel
-def observe(model, state, row, readings):
+@stage
+def show(model, state, row, readings):
     """Fill one row of `readings` from the last evaluation."""
     for c in range(model.coupled_points.size):
         p = model.coupled_points[c]
@@ -114,3 +114,9 @@ def observe(model, state, row, readings):
         mx, my, mz = mx + moment[0], my + moment[1], mz + moment[2]
     w = readings.wrench
     w[row, 0], w[row, 1], w[row, 2], w[row, 3], w[row, 4], w[row, 5] = wx, wy, wz, mx, my, mz
+
+
+@kernel
+def observe(model, state, row, readings):
+    """`show`, to be called from Python."""
+    show(model, state, row, readings)

@@ -2,60 +2,73 @@
 
 Axial modes: every segment with half of its mass at each end bounds the frequencies of the assembled lines from above (Irons), whatever
 hangs on them: w = (2/l) sqrt(EA/m), with m the dry mass (water only adds to it). Bending, bed contact and drag have limits of their own;
-contact and drag are kept from limiting by the relief and the drag time (seabed.py, water.py), so they are listed, not applied.
+contact and drag are kept from limiting (seabed.py, water.py), so they are listed, not applied. Steps of many stages are also capped where
+the first axial mode of a line, pi c / L, would no longer be followed to about 1 % of the dynamic tension.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from .schemes import LEAPFROG, SAFETY, STAGES, stable_step
+from .schemes import LEAPFROG, SAFETY, SSP, stable_step
 
 REFERENCE_SPEED = 2.0  # m/s, at which the drag's own limit is stated
+ACCURACY = 0.3  # of count / w = L / (2 c): measured on the OC4 chains (docs/measurements.md)
 
 
 @dataclass(frozen=True)
 class StepLimit:
     """What an explicit step may be.
 
-    dt: largest step taken (s); limited_by: which line and effect, or "dt"; scheme: evaluations a step; limits: for each effect the step (s)
-    at which a plain leapfrog would lose stability through it, the smallest over the scene; axial: stable step for each scheme (s).
+    dt: largest step taken (s); limited_by: what limits it, in words; limits: for each effect the step (s) at which a plain leapfrog would
+    lose stability or accuracy through it, the smallest over the scene; axial: stable step (s) of each scheme that may be used, by its
+    number of evaluations.
     """
 
     dt: float
     limited_by: str
-    scheme: int
     limits: dict
     axial: dict
 
 
 def step_limit(scene, model, dt=None):
     """StepLimit of `scene` built as `model`; `dt` (s) caps the step."""
-    axial = dict.fromkeys((LEAPFROG, *STAGES), np.inf)
-    limits = {"axial": np.inf, "drag at 2 m/s": np.inf, "bed stiffness": np.inf, "bed damping": np.inf}
+    axial = dict.fromkeys((LEAPFROG, *SSP), np.inf)
+    limits = dict.fromkeys(("axial", "drag at 2 m/s", "bed stiffness", "bed damping", "axial accuracy"), np.inf)
     worst = ""
     for k, line in enumerate(scene.lines):
         first, count = model.first_node[k], model.segments[k]
-        segment = first + 1
-        mass = line.type.mass * model.length[segment]
-        omega = 2.0 * np.sqrt(model.stiffness[segment] * model.inverse_length[segment] / mass)
-        zeta = 0.5 * omega * model.damping[segment] * model.length[segment] / model.stiffness[segment]
+        length, stiffness = model.length[first + 1], model.stiffness[first + 1]
+        omega = 2.0 / length * np.sqrt(stiffness / line.type.mass)
+        zeta = 0.5 * omega * model.damping[first + 1] * length / stiffness
         for scheme in axial:
             axial[scheme] = min(axial[scheme], stable_step(scheme, omega, zeta))
         if 2.0 / omega < limits["axial"]:
             limits["axial"] = 2.0 / omega
-            worst = f"axial waves in {line.name}"
-        nodes = slice(first, first + count + 1)
-        with np.errstate(divide="ignore"):
-            masses = model.mass[nodes]
-            limits["bed stiffness"] = min(limits["bed stiffness"], np.min(2.0 / np.sqrt(model.bed_stiffness[nodes] / masses)))
-            limits["bed damping"] = min(limits["bed damping"], np.min(2.0 * masses / model.bed_damping[nodes]))
-            drag = np.maximum(model.drag_normal[nodes], model.drag_axial[nodes])
-            wet_mass = masses + model.added_normal[nodes]
-            limits["drag at 2 m/s"] = min(limits["drag at 2 m/s"], np.min(wet_mass / (drag * REFERENCE_SPEED)))
-    cheapest = max(axial, key=lambda scheme: axial[scheme] / scheme)
-    family = {LEAPFROG: axial[LEAPFROG]} if cheapest == LEAPFROG else {s: axial[s] for s in STAGES}
-    largest = max(SAFETY * step for step in family.values())
-    if dt is not None and dt < largest:
-        return StepLimit(dt, "dt", cheapest, limits, family)
-    return StepLimit(largest, worst, cheapest, limits, family)
+            worst = line.name
+        limits["axial accuracy"] = min(limits["axial accuracy"], ACCURACY * count / omega)
+        for name, step in _node_limits(model, slice(first, first + count + 1)):
+            limits[name] = min(limits[name], step)
+    undamped = scene.environment.water_density == 0.0 or any(line.type.drag_normal == 0.0 for line in scene.lines)
+    best_ssp = max(axial[s] / s for s in SSP)
+    if undamped or axial[LEAPFROG] >= best_ssp:
+        usable = {LEAPFROG: axial[LEAPFROG]}
+    else:
+        usable = {s: axial[s] for s in SSP}
+    stable = SAFETY * max(usable.values())
+    accurate = max(limits["axial accuracy"], SAFETY * min(usable.values()))
+    if dt is not None and dt < min(stable, accurate):
+        return StepLimit(float(dt), "dt", limits, usable)
+    if accurate < stable:
+        return StepLimit(accurate, "accuracy of the first axial mode", limits, usable)
+    return StepLimit(stable, f"stability of axial waves in {worst}", limits, usable)
+
+
+def _node_limits(model, nodes):
+    """(effect, step in s) of the stages that act on single nodes."""
+    mass = model.mass[nodes]
+    drag = np.maximum(model.drag_normal[nodes], model.drag_axial[nodes])
+    with np.errstate(divide="ignore"):
+        yield "bed stiffness", float(np.min(2.0 / np.sqrt(model.bed_stiffness[nodes] / mass)))
+        yield "bed damping", float(np.min(2.0 * mass / model.bed_damping[nodes]))
+        yield "drag at 2 m/s", float(np.min((mass + model.added_normal[nodes]) / (drag * REFERENCE_SPEED)))

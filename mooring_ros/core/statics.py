@@ -11,8 +11,7 @@ import numpy as np
 
 from . import catenary
 from .condense import condense_lines, spread
-from .forces import evaluate
-from .cache import kernel
+from .forces import evaluate_once
 from .model import LOOSE, POINT_COUPLED, POINT_FIXED
 from .platform import rotate
 from .tangent import fill_tangent, predict_tension, stretch_linearly
@@ -103,7 +102,7 @@ class StaticSolver:
     def solve(self, state, scratch):
         """Newton from the present positions (and tensions); returns a StaticResult. Positions are the best found, velocities zero."""
         free = _free_rows(self.model, state)
-        state.settings[:] = (0.0, 0.0, 0.0, 1.0)
+        state.settings[:] = (0.0, 0.0, 1.0)
         state.bed_relief[:] = 1.0
         goal = max(self.tolerance, self._rounding(state))
         best = _Best()
@@ -310,9 +309,8 @@ def _skew(v):
     return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
 
 
-@kernel
 def _evaluate_at_rest(model, state, scratch):
-    evaluate(model, state, scratch, 0.0, True)
+    evaluate_once(model, state, scratch, 0.0, 0.0, True)
 
 
 def _free_rows(model, state):
