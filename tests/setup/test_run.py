@@ -5,6 +5,7 @@ import shutil
 import signal
 
 import pytest
+from checkouts import checkout  # noqa: F401, a fixture
 
 PRINT = "import sys; print(sys.argv[1:])"
 

@@ -1,6 +1,7 @@
 """./run where a ROS is sourced."""
 
 import pytest
+from checkouts import checkout  # noqa: F401, a fixture
 
 
 @pytest.fixture
