@@ -36,7 +36,10 @@ def main(argv=None):
     except SceneError as error:
         print(error, file=sys.stderr)
         return 2
-    except (coupling.RunFailed, replay.ReplayFailed, RecordingError) as error:
+    except coupling.RunFailed as error:
+        _complain(str(error))
+        return 2 if error.status == 2 else 1
+    except (replay.ReplayFailed, RecordingError) as error:
         _complain(str(error))
         return 1
     except OSError as error:

@@ -15,7 +15,12 @@ _DOMAINS = 101  # ROS_DOMAIN_ID 1 to 101: above, the ports may be taken by other
 
 
 class RunFailed(Exception):
-    """The coupled run did not come to its end; the text says who failed, with the end of its log."""
+    """The coupled run did not come to its end; the text says who failed, with the end of its log. status: its exit status."""
+
+    def __init__(self, child, others=()):
+        self.status = child.status
+        logs = "".join(f"\nthe end of {one.log}:\n{one.tail()}" for one in (child, *others))
+        super().__init__(f"the {child.name} ended with status {child.status}{logs}")
 
 
 @dataclass(frozen=True)
@@ -59,27 +64,23 @@ def run(options, scene, depth, folder, variables, progress, interrupted):
 
 def _watch(node, floater, progress, interrupted):
     """Show the progress until the floater is done."""
-    progress.state("starting the mooring node and the floater (the first start on a machine compiles the mooring core)")
+    waiting = True
     while True:
+        if waiting:
+            progress.state("starting the mooring node and the floater (the first start on a machine compiles the mooring core)")
         if interrupted():
             raise KeyboardInterrupt
         ended = floater.status  # before the lines: after its end, all of them are there
         for line in floater.lines():
+            waiting = False
             progress.run(json.loads(line)["time"])
         if ended == 0:
             return
         if node.status is not None:
-            raise RunFailed(_epitaph(node))
+            raise RunFailed(node)
         if ended is not None:
-            raise RunFailed(_epitaph(floater, node))
+            raise RunFailed(floater, [node])
         time.sleep(0.05)
-
-
-def _epitaph(child, other=None):
-    text = f"the {child.name} ended with status {child.status}; the end of {child.log}:\n{child.tail()}"
-    if other is not None:
-        text += f"\nand of {other.log}:\n{other.tail()}"
-    return text
 
 
 def _node_arguments(options, scene, recording):

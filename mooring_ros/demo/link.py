@@ -64,7 +64,7 @@ class MooringLink:
         """Wait until the node listens and speaks. Raises LinkError after timeout (s), or when it stays unconfigured; Stopped."""
         end = time.monotonic() + timeout
         state = _NodeState(self._node)
-        missing = f"nobody listens to {self._publisher.topic_name} and speaks on {self._subscription.topic_name}"
+        missing = f"nobody answers on {self.topics}"
         while not (self._publisher.get_subscription_count() and self._subscription.get_publisher_count()):
             self._check(end, missing, timeout)
             self._executor.spin_once(timeout_sec=_POLL)
@@ -121,6 +121,11 @@ class MooringLink:
             self._executor.spin_once(timeout_sec=min(left, _POLL))
         self.counts.answered += 1
         return self._answers.pop(stamp)
+
+    @property
+    def topics(self):
+        """The topics of both directions as they are after remapping, for messages."""
+        return f"{self._publisher.topic_name} and {self._subscription.topic_name}"
 
     @property
     def heard(self):

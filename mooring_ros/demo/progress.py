@@ -12,15 +12,18 @@ class Progress:
         self._terminal = self._stream.isatty()
         self._total = total
         self._started = None
-        self._state = ""
+        self._state, self._waiting_since, self._written = "", 0.0, False
         self._next = 0.25  # share of the run after which the next plain line is due
         self._last_shown = 0.0
 
     def state(self, text):
-        """What is being waited for, in words; said once elsewhere than on a terminal."""
+        """What is being waited for, in words, and on a terminal for how long; elsewhere it is said once. Call it again and again."""
         changed, self._state = text != self._state, text
+        if changed:
+            self._waiting_since = time.monotonic()
         if self._terminal:
-            self._rewrite(text)
+            waited = time.monotonic() - self._waiting_since
+            self._rewrite(f"{text} … {waited:.0f} s" if waited >= 1.0 else text)
         elif changed:
             print(text, file=self._stream, flush=True)
 
@@ -41,10 +44,10 @@ class Progress:
 
     def close(self):
         """Leave the terminal's line."""
-        if self._terminal and self._state:
+        if self._terminal and self._written:
             print(file=self._stream, flush=True)
 
     def _rewrite(self, text):
-        self._state = text
+        self._written = True
         self._stream.write(f"\r\x1b[K{text}")
         self._stream.flush()

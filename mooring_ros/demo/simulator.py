@@ -98,6 +98,8 @@ def main(argv=None):
         waves = Waves(sea_state(options), options.depth)
         integrator = Integrator(Floater(), Excitation(waves, volturnus_s()), 1.0 / options.rate)
         steps = max(1, round(options.duration * options.rate))
+        if not options.json:
+            print(f"waiting for a mooring node on {link.topics}", flush=True)
         summary = run(link, integrator, steps, _stamps(options.rate), options.timeout, options.patience, _reporter(options))
         if options.summary:
             with open(options.summary, "w", encoding="utf-8") as file:

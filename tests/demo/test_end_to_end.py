@@ -108,3 +108,9 @@ def test_a_node_that_dies_ends_the_demo_with_the_end_of_its_log(tmp_path):
     assert process.returncode == 1
     assert "the mooring node ended with status -9" in err and "Traceback" not in err
     assert processes_that_mention(str(folder)) == []
+
+
+def test_a_setting_that_the_node_refuses_ends_with_status_2_and_its_words(tmp_path):
+    process = start(tmp_path / "results", "--segments", "100001")
+    _, err = process.communicate(timeout=120)
+    assert process.returncode == 2 and "segments" in err and "100001" in err and "Traceback" not in err

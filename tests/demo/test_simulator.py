@@ -6,7 +6,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -83,9 +82,9 @@ def test_a_node_that_stays_unconfigured_is_named_long_before_the_time_out(enviro
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_it_stops_at_once_on_a_signal(environment, number):
-    process = subprocess.Popen(simulator("--timeout", "60"), env=environment, stderr=subprocess.PIPE, text=True)
+    process = subprocess.Popen(simulator("--timeout", "60"), env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     try:
-        time.sleep(2.0)
+        assert "waiting" in process.stdout.readline()
         process.send_signal(number)
         _, errors = process.communicate(timeout=10)
     finally:
