@@ -263,7 +263,7 @@ class Mooring:
 
     @property
     def last_step(self):
-        """What the last interval took: evaluations, steps (not counting retries), retries, step (s)."""
+        """What the last interval took: evaluations of the forces, steps, parts taken again with a finer step, shortest step (s)."""
         evaluations, steps, retries, dt = self._report
         return {"evaluations": int(evaluations), "steps": int(steps), "retries": int(retries), "dt": float(dt)}
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from .cache import kernel, stage
 from .forces import evaluate, evaluate_once
-from .guard import recall, runaway, save
+from .guard import keep_tension, recall, runaway, save, tension_jumped
 from .platform import start_motion
 from .points import place_coupled_points
 from .readings import show
@@ -14,18 +14,24 @@ from .surface import all_wet, reaches_above
 
 DONE, RUNAWAY = 0, 1  # status codes
 
-CHUNK = 64  # steps between two looks at the guard
+CHUNK = 64  # largest steps between two looks at the guard
 HALVINGS = 6  # of the step, before an interval is given up
+UNEVEN = 0.1  # of the tension and the line's weight: the change of a tension from Euler steps to their mean that is too much
+UNEVEN_HALVINGS = 3  # of the step for that cause; a jump that stays is one of the line, not of the scheme
+REFINED_STEPS = 40.0  # largest steps for which a finer step is kept
 DRAG_SAFETY = 0.9  # of the Euler step at which drag would turn a velocity round
 SURFACE_MARGIN, LIKELY_SPEED = 1.0, 5.0  # m, m/s: how far below the surface nodes may be before wet shares matter in a chunk
 
 
 @stage
-def choose_step(table, duration):
-    """(row of the table, number of steps) with the fewest evaluations over `duration`; of equals, the shorter steps."""
+def choose_step(table, span, refined):
+    """(row of the table, number of steps) with the fewest evaluations over `span` (s); of equals, the shorter steps.
+
+    Steps are at most those of the table over `refined`.
+    """
     best, best_steps, best_cost = 0, 0.0, np.inf
     for row in range(table.shape[0]):
-        steps = max(np.ceil(duration / table[row, 1] - 1e-9), 1.0)
+        steps = max(np.ceil(span * refined / table[row, 1] - 1e-9), 1.0)
         cost = steps * table[row, 0]
         if cost < best_cost:
             best, best_steps, best_cost = row, steps, cost
@@ -95,10 +101,13 @@ def leapfrog_stage(model, state, h):
 
 
 @stage
-def take_steps(model, state, scratch, evaluations, h, first, count, steps):
-    """Steps first .. first + count - 1 of `steps` over the interval; accelerations must be those of the current state."""
-    ds = 1.0 / steps
-    for j in range(first, first + count):
+def take_steps(model, state, scratch, evaluations, h, steps, start, ds):
+    """`steps` steps of h (s) from `start` of the interval, ds of it each; accelerations must be those of the current state.
+
+    Returns True when the tension of a segment differs too much between a step and the Euler steps that it is made of.
+    """
+    uneven = 0
+    for j in range(steps):
         if evaluations != LEAPFROG:
             start_step(model, state, scratch)
         for k in range(evaluations):
@@ -110,63 +119,77 @@ def take_steps(model, state, scratch, evaluations, h, first, count, steps):
                 euler_stage(model, state, h / (evaluations - 1))
             else:
                 at = 1.0
+                keep_tension(model, state, scratch)
                 last_stage(model, state, scratch, h / (evaluations - 1), evaluations)
-            place_coupled_points(model, state, scratch.motion, (j + at) * ds)
+            place_coupled_points(model, state, scratch.motion, start + (j + at) * ds)
             evaluate(model, state, scratch, state.settings[0], state.settings[1], state.settings[2] != 0.0)
+        if evaluations != LEAPFROG:
+            uneven |= tension_jumped(model, state, scratch, UNEVEN)
+    return uneven != 0
 
 
 @stage
 def advance(model, state, scratch, table, time, pose, twist, speed_limit, report):
     """Advance `state` to `time` (s), where the platform has `pose` (7,) and `twist` (6,). Returns a status code.
 
-    `table`: from `schemes.step_table`. A chunk of steps that ends in a runaway is taken again from its start with half the step, and
-    refused after `HALVINGS`: the state is then as it was. `report` (4,) gets evaluations, steps, retries and the step (s).
+    `table`: from `schemes.step_table`. The interval is taken in chunks. One whose tensions come out uneven is taken again from its start
+    with half the step, up to `UNEVEN_HALVINGS` times, and the finer step is kept for a while; one that runs away up to `HALVINGS` times,
+    and is then refused: the state is as it was. `report` (4,) gets evaluations, steps, chunks taken again and the shortest step (s).
     """
     duration = time - state.clock[0]
     start_motion(state.pose, state.twist, pose, twist, duration, scratch.motion)
-    row, steps = choose_step(table, duration)
-    evaluations = int(table[row, 0])
-    previous = (state.settings[0], state.settings[1], state.settings[2])
-    save(model, state, scratch.saved[0])
-    chunks = (steps + CHUNK - 1) // CHUNK
-    retries, taken = 0, 0
+    largest = table[0, 1]
+    for row in range(table.shape[0]):
+        largest = max(largest, table[row, 1])
+    settings = state.settings
+    previous = (settings[0], settings[1], settings[2], settings[3], settings[4])
+    chunks = int(np.ceil(duration / (CHUNK * largest)))
+    span = duration / chunks
+    evaluations_taken, steps_taken, retries, shortest = 0.0, 0, 0, duration
     for chunk in range(chunks):
-        begin = chunk * CHUNK
-        count = min(CHUNK, steps - begin)
-        if chunk > 0:
-            save(model, state, scratch.saved[1])
-        source = 0 if chunk == 0 else 1
-        finer, failed = 1, True
-        for _ in range(HALVINGS + 1):
-            h = duration / (steps * finer)
+        start = chunk / chunks
+        source = min(chunk, 1)
+        save(model, state, scratch.saved[source])
+        refined = settings[3]
+        wild = False
+        for attempt in range(HALVINGS + 1):
+            if attempt > 0:
+                recall(model, state, scratch.saved[source])
+                refined *= 2.0
+                retries += 1
+            row, steps = choose_step(table, span, refined)
+            h = span / steps
             adapt(model, state, h / table[row, 2])
-            look_at_surface(model, state, SURFACE_MARGIN + count * finer * h * LIKELY_SPEED)
-            if finer > 1:
-                evaluate_at(model, state, scratch, begin / steps)
-            take_steps(model, state, scratch, evaluations, h, begin * finer, count * finer, steps * finer)
-            taken += count * finer
-            failed = runaway(model, state, speed_limit)
-            if not failed:
+            look_at_surface(model, state, SURFACE_MARGIN + span * LIKELY_SPEED)
+            if attempt > 0:
+                evaluate_at(model, state, scratch, start)
+            uneven = take_steps(model, state, scratch, int(table[row, 0]), h, steps, start, 1.0 / (steps * chunks))
+            evaluations_taken += steps * table[row, 0]
+            wild = runaway(model, state, speed_limit)
+            if not wild and not (uneven and attempt < UNEVEN_HALVINGS):
                 break
-            recall(model, state, scratch.saved[source])
-            finer *= 2
-            retries += 1
-        if failed:
+        if wild:
             recall(model, state, scratch.saved[0])
-            for i in range(3):
-                state.settings[i] = previous[i]
-            set_bed_relief(model, state, previous[1])
-            if previous[2] == 0.0:
+            settings[0], settings[1], settings[2], settings[3], settings[4] = previous
+            set_bed_relief(model, state, settings[1])
+            if settings[2] == 0.0:
                 all_wet(model, state)
             evaluate_at(model, state, scratch, 0.0)
             return RUNAWAY
+        steps_taken += steps
+        shortest = min(shortest, h)
+        now = state.clock[0] + (chunk + 1) * span
+        if refined > settings[3]:
+            settings[3], settings[4] = refined, now + REFINED_STEPS * largest
+        elif refined > 1.0 and now >= settings[4]:
+            settings[3], settings[4] = 0.5 * refined, now + REFINED_STEPS * largest
     for i in range(7):
         state.pose[i] = pose[i]
     for i in range(6):
         state.acceleration_of_platform[i] = (twist[i] - state.twist[i]) / duration
         state.twist[i] = twist[i]
     state.clock[0] = time
-    report[0], report[1], report[2], report[3] = taken * evaluations, steps, retries, duration / steps
+    report[0], report[1], report[2], report[3] = evaluations_taken, steps_taken, retries, shortest
     return DONE
 
 

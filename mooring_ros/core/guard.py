@@ -1,4 +1,4 @@
-"""What a step may not leave behind: numbers that are no numbers, and speeds that nothing in the scene can cause."""
+"""What a step may not leave behind: numbers that are no numbers, speeds that nothing in the scene can cause, tensions that jump."""
 
 from .cache import stage
 
@@ -29,3 +29,18 @@ def recall(model, state, copy):
         for i in range(model.size + 1):
             state.position[k, i] = copy[k, i]
             state.velocity[k, i] = copy[3 + k, i]
+
+
+@stage
+def keep_tension(model, state, scratch):
+    for i in range(model.size + 1):
+        scratch.tension[i] = state.tension[i]
+
+
+@stage
+def tension_jumped(model, state, scratch, share):
+    """1 when a tension differs from the kept one by more than `share` of it and of the line's weight, else 0."""
+    jumped = 0
+    for i in range(model.size + 1):
+        jumped |= abs(state.tension[i] - scratch.tension[i]) > share * (state.tension[i] + model.tension_scale[i])
+    return jumped

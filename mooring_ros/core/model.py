@@ -32,6 +32,7 @@ class Model(NamedTuple):
     length: np.ndarray  # l unstretched, m
     live: np.ndarray  # 1 for a real segment, 0 for a null one
     diameter: np.ndarray  # m
+    tension_scale: np.ndarray  # N: the line's submerged weight, or a small share of EA where it has none
     # nodes, (n,)
     share_left: np.ndarray  # share of the node's volume in the segment to its left, 0..1
     share_right: np.ndarray  # ... and to its right
@@ -82,7 +83,7 @@ class State(NamedTuple):
     inertia_axial: np.ndarray  # (n,), kg
     bed_relief: np.ndarray  # (n,): factor on the vertical acceleration of a node in contact, 0..1
     end_point: np.ndarray  # (E,) index of the point that holds the end, or LOOSE
-    settings: np.ndarray  # (3,) of the last evaluation: drag time (s), Euler step of the bed (s), 1 if wet shares were computed
+    settings: np.ndarray  # (5,) drag time (s), Euler step of the bed (s), 1 if wet shares are computed; refinement of the step, kept until (s)
 
 
 class Scratch(NamedTuple):
@@ -92,6 +93,7 @@ class Scratch(NamedTuple):
     velocity: np.ndarray  # (3, n)
     wet_segment: np.ndarray  # (n,)
     saved: np.ndarray  # (2, 6, n): position and velocity at the start of the interval and of the chunk
+    tension: np.ndarray  # (n,), before a step's last stage
     motion: np.ndarray  # (8, 3): platform.start_motion
 
 
@@ -170,6 +172,8 @@ def _place_line(rows, line, start, count, env):
     rows["length"][segments] = length
     rows["live"][segments] = 1.0
     rows["diameter"][segments] = kind.diameter
+    submerged = (kind.mass - env.water_density * 0.25 * np.pi * kind.diameter**2) * env.gravity * line.length
+    rows["tension_scale"][segments] = max(abs(submerged), 1e-5 * kind.stiffness)
 
     nodes = slice(start, start + count + 1)
     lumped = np.full(count + 1, length)  # unstretched length that a node carries
@@ -227,10 +231,10 @@ def new_state(model, end_point):
         inertia_axial=np.ones(n),
         bed_relief=np.ones(n),
         end_point=end_point.copy(),
-        settings=np.zeros(3),
+        settings=np.array([0.0, 0.0, 0.0, 1.0, 0.0]),
     )
 
 
 def new_scratch(model):
     n = model.size + 1
-    return Scratch(np.zeros((3, n)), np.zeros((3, n)), np.ones(n), np.zeros((2, 6, n)), np.zeros((8, 3)))
+    return Scratch(np.zeros((3, n)), np.zeros((3, n)), np.ones(n), np.zeros((2, 6, n)), np.zeros(n), np.zeros((8, 3)))
