@@ -64,7 +64,7 @@ def deck(scene, dt, scheme="RK2", segments=None, damping=None, options=()):
     rows += ["---- LINES ----", "ID Type A B Len N Out", "(#) (-) (#) (#) (m) (-) (-)"]
     for n in scene.lines:
         rows.append(f"{n.id} {n.type.name} {n.end_a} {n.end_b} {float(n.length)!r} {segments or n.segments} -")
-    rows += ["---- OPTIONS ----", f"{dt!r} dtM", f"{scheme} tScheme"]
+    rows += ["---- OPTIONS ----", f"{float(dt)!r} dtM", f"{scheme} tScheme"]
     rows += [f"{env.gravity!r} g", f"{env.water_density!r} WtrDnsty", f"{env.depth!r} WtrDpth"]
     rows += [f"{env.bed_stiffness!r} kBot", f"{env.bed_damping!r} cBot"]
     rows += ["2.0 dtIC", "200 TmaxIC", "1e-5 threshIC", "4 CdScaleIC", "0 writeLog", "1 disableOutput", "1 disableOutTime"]
@@ -83,6 +83,7 @@ def run(scene, motion, dt, scheme="RK2", segments=None, damping=None, steps_per_
     ``motion.displacement(t)`` moves all coupled points alike. Raises PeerError when MoorDyn fails or returns no number.
     """
     end = until or motion.end
+    dt = float(dt)
     call = dt * steps_per_call
     calls = int(np.ceil(end / call - 1e-9))
     edges = call * np.arange(calls + 1)

@@ -1,0 +1,101 @@
+"""What one evaluation of the equations of motion costs for each node, against a bare vector kernel over as many array streams.
+
+The bare kernel does nothing but read and write: triads ``a = b + c + d`` over separate rows, as many reads and writes as the
+evaluation's passes have. It is what the memory and the loop cost at this length without any physics. Both are timed in this process, alternating.
+"""
+
+import time
+from pathlib import Path
+
+import numba
+import numpy as np
+
+from mooring_ros.core.explicit import evaluate_at
+from mooring_ros.scene import load_scene
+
+from . import ours, tables
+from .motions import SurgeHeave
+
+SCENE = Path(__file__).parent.parent / "config" / "scenes" / "oc4_semi.txt"
+NODES = (60, 120, 300, 1000, 10000)
+GOAL = 10e-9  # s for a node and evaluation
+GOAL_FROM = 120  # nodes
+WRITES = 17  # rows written by the passes of one evaluation; they read 47
+ROUNDS = 7
+
+
+@numba.njit(nogil=True)
+def repeat_evaluation(model, state, scratch, count):
+    """Evaluate ``count`` times."""
+    for _ in range(count):
+        evaluate_at(model, state, scratch, 0.5)
+
+
+@numba.njit(nogil=True)
+def triads(rows, size):
+    """One write and three reads for each of ``WRITES`` rows."""
+    for k in range(WRITES):
+        a, b, c, d = rows[k], rows[k + 1], rows[k + 2], rows[k + 3]
+        for i in range(size):
+            a[i] = b[i] + c[i] + d[i]
+
+
+@numba.njit(nogil=True)
+def repeat_triads(rows, size, count):
+    """Run the bare kernel ``count`` times."""
+    for _ in range(count):
+        triads(rows, size)
+
+
+def fastest(calls, seconds):
+    """Least CPU time (s) of one repetition of each call, rounds alternating; a call gets the number of repetitions."""
+    counts = []
+    for call in calls:
+        call(1)
+        count = 1
+        while True:
+            began = time.process_time()
+            call(count)
+            if time.process_time() - began > 0.01:
+                break
+            count *= 4
+        counts.append(max(1, round(count * seconds / (time.process_time() - began))))
+    best = [np.inf] * len(calls)
+    for _ in range(ROUNDS):
+        for k, call in enumerate(calls):
+            began = time.process_time()
+            call(counts[k])
+            best[k] = min(best[k], (time.process_time() - began) / counts[k])
+    return best
+
+
+def measure(scene, nodes, seconds):
+    """One row: nodes, ns for a node and evaluation, the same of the bare kernel, their ratio."""
+    segments = round(nodes / len(scene.lines)) - 1
+    mooring = ours.Mooring(scene, solver="explicit", segments=segments)
+    motion = SurgeHeave()
+    mooring.settle(ours.at_rest(motion))
+    times, poses, twists = ours.samples(motion, 20.0)
+    mooring.run(times[:20], poses[:20], twists[:20])
+    model, state, scratch = mooring._model, mooring._state, mooring._scratch  # what the facade hands to the core
+    rows = np.random.default_rng(0).random((WRITES + 3, model.size + 1))
+    count = (segments + 1) * len(scene.lines)
+    ours_each, bare_each = fastest(
+        [lambda n: repeat_evaluation(model, state, scratch, n), lambda n: repeat_triads(rows, model.size, n)], seconds
+    )
+    return {"nodes": count, "evaluation": ours_each / count, "bare": bare_each / count, "ratio": ours_each / bare_each}
+
+
+def run(quick=False):
+    """All sizes; prints the table."""
+    scene = load_scene(SCENE)
+    rows = [measure(scene, nodes, 0.02 if quick else 0.1) for nodes in NODES]
+    body = [[r["nodes"], f"{1e9 * r['evaluation']:.1f}", f"{1e9 * r['bare']:.1f}", f"{r['ratio']:.2f}"] for r in rows]
+    content = {"kernel_cost": tables.table(["nodes", "ns for a node and evaluation", "bare kernel, ns", "ratio"], body)}
+    print(content["kernel_cost"], flush=True)
+    failed = [
+        f"{r['nodes']} nodes: {1e9 * r['evaluation']:.1f} ns for a node and evaluation, goal {1e9 * GOAL:.0f}"
+        for r in rows
+        if r["nodes"] >= GOAL_FROM - 3 and r["evaluation"] > GOAL
+    ]
+    return {"rows": rows, "tables": content, "failed": failed}
