@@ -1,5 +1,6 @@
 """What a replay writes: an MCAP recording like the node's, and a CSV table. Readable at any end, also an early one."""
 
+import contextlib
 import os
 import time
 from dataclasses import dataclass
@@ -48,13 +49,29 @@ class CsvOutput:
         self._file.write(",".join(["time", *ends, *WRENCH_COLUMNS]) + "\n")
 
     def write(self, answer):
-        """One row."""
+        """One row. Raises ComputationFailed when the disk refuses it."""
         tensions = np.column_stack((answer.fairlead_tension, answer.anchor_tension)).ravel()
-        self._file.write(",".join(map(repr, [float(answer.time), *tensions.tolist(), *answer.wrench.tolist()])) + "\n")
+        row = ",".join(map(repr, [float(answer.time), *tensions.tolist(), *answer.wrench.tolist()]))
+        with self._disk():
+            self._file.write(row + "\n")
 
     def close(self):
-        self._file.close()
-        os.replace(self._part, self._path)
+        """Close the file and give it its name; of a full disk, with whole rows only. Raises ComputationFailed."""
+        try:
+            with self._disk():
+                self._file.close()
+        except ComputationFailed:
+            _cut_to_whole_rows(self._part)
+            raise
+        finally:
+            os.replace(self._part, self._path)
+
+    @contextlib.contextmanager
+    def _disk(self):
+        try:
+            yield
+        except OSError as error:
+            raise ComputationFailed(f"{self._path}: cannot be written: {error.strerror or error}") from error
 
 
 class McapOutput:
@@ -128,6 +145,11 @@ class _MotionTemplate:
     def fill(self, stamp, pose, twist):
         back, twist = rotation.conjugate(pose[3:].tolist()), twist.tolist()
         return self._template.fill(stamp, pose, [*rotation.rotate(back, twist[:3]), *rotation.rotate(back, twist[3:])])
+
+
+def _cut_to_whole_rows(path):
+    with open(path, "r+b") as file:
+        file.truncate(file.read().rfind(b"\n") + 1)
 
 
 def _step_template():

@@ -93,18 +93,13 @@ class Outputs:
         try:
             if self._csv:
                 self._csv.close()
-        except OSError as error:
-            raise ComputationFailed(f"{error.filename}: {error.strerror}") from error
         finally:
             self._mcap.close()
 
     def write(self, answer, mooring, composed):
         self._mcap.write(answer, mooring, composed)
         if self._csv:
-            try:
-                self._csv.write(answer)
-            except OSError as error:
-                raise ComputationFailed(f"{error.filename}: {error.strerror}") from error
+            self._csv.write(answer)
 
     def write_inputs(self, inputs, done):
         """What led to the answer: the recording's own messages up to its stamp (all that are left for None), or the motion; and the step."""

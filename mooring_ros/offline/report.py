@@ -95,8 +95,12 @@ def write_report(path, title, sections):
     """Write the report to path, in one move: a report is never half there. Raises OSError."""
     path = Path(path)
     part = path.with_name(path.name + ".part")
-    part.write_text(document(title, sections), encoding="utf-8")
-    os.replace(part, path)
+    try:
+        part.write_text(document(title, sections), encoding="utf-8")
+        os.replace(part, path)
+    except OSError:
+        part.unlink(missing_ok=True)
+        raise
 
 
 def _inline(svg):
