@@ -1,4 +1,7 @@
-"""`mooring replay`: recorded motion in, forces out, as fast as it goes."""
+"""`mooring replay`: recorded motion in, forces out, as fast as it goes.
+
+Forces go out as computed: a live run's ramps, limits and holds (node/output.py) are not played again. Tensions never have any.
+"""
 
 import os
 
