@@ -70,6 +70,9 @@ class MooringLink:
             self._executor.spin_once(timeout_sec=_POLL)
             if state.unconfigured_for() > _LONGEST_UNCONFIGURED:
                 raise LinkError("the mooring node is there, but unconfigured, expected active; its log says why")
+        last = time.monotonic() + 1.0
+        while state.asked and time.monotonic() < last:  # else its answer would find nobody
+            self._executor.spin_once(timeout_sec=_POLL)
         state.close()
 
     def greet(self, stamps, pose, timeout, patience=1.0):
@@ -165,6 +168,11 @@ class _NodeState:
         self._client = node.create_client(GetState, STATE_SERVICE)
         self._question = None
         self._since = None
+
+    @property
+    def asked(self):
+        """Whether an answer is still to come."""
+        return self._question is not None and not self._question.done()
 
     def unconfigured_for(self):
         """For how long (s) every answer has been `unconfigured`."""
