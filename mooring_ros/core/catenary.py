@@ -6,10 +6,11 @@ from scipy.optimize import brentq
 NEARLY = 1e-6
 
 
-def guess(end_a, end_b, length, nodes, weight, stiffness, bed_level):
+def guess(end_a, end_b, length, nodes, weight, stiffness, level):
     """Positions (3, nodes) (m), evenly spaced in unstretched length from end_a to end_b (3,), and tension (nodes,) (N) at them.
 
-    `length` (m) is unstretched, `weight` (N/m) submerged: a light line hangs upwards, and does not touch the bed. `stiffness` EA (N).
+    `length` (m) is unstretched, `weight` (N/m) submerged: a light line hangs upwards. `stiffness` EA (N). `level` is the z (m) at which
+    the line is held up: the bed's for a heavy line, the surface's for a light one.
     """
     along = np.linspace(0.0, length, nodes)
     chord = end_b - end_a
@@ -18,14 +19,12 @@ def guess(end_a, end_b, length, nodes, weight, stiffness, bed_level):
         tension = max(stiffness * (distance / length - 1.0), 0.0) + abs(weight) * length + NEARLY * stiffness
         return end_a[:, None] + chord[:, None] * along / length, np.full(nodes, tension)
     plan = np.hypot(chord[0], chord[1])
-    if weight < 0.0:
-        reach, height, tension = _hanging(plan, -chord[2], length, along, -weight)
-        height = -height
-    else:
-        reach, height, tension = _hanging(plan, chord[2], length, along, weight)
-        heights = np.array([end_a[2], end_b[2]]) - bed_level
-        if (end_a[2] + height).min() < bed_level and heights.min() >= 0.0:
-            reach, height, tension = _laid(plan, heights, length, along, weight)
+    up = 1.0 if weight > 0.0 else -1.0  # a light line is a heavy one upside down
+    reach, height, tension = _hanging(plan, up * chord[2], length, along, abs(weight))
+    heights = up * (np.array([end_a[2], end_b[2]]) - level)
+    if heights[0] + height.min() < 0.0 and heights.min() >= 0.0:
+        reach, height, tension = _laid(plan, heights, length, along, abs(weight))
+    height = up * height
     shape = np.empty((3, nodes))
     shape[:2] = end_a[:2, None] + chord[:2, None] * reach
     shape[2] = end_a[2] + height

@@ -6,7 +6,7 @@ from .cache import kernel, stage
 from .forces import evaluate, evaluate_once
 from .guard import keep_tension, recall, runaway, save, tension_jumped
 from .platform import start_motion
-from .points import place_coupled_points
+from .points import place_coupled_points, place_staggered_coupled_points, speed_coupled_points
 from .readings import show
 from .schemes import LEAPFROG
 from .seabed import set_bed_relief
@@ -111,17 +111,17 @@ def take_steps(model, state, scratch, evaluations, h, steps, start, ds):
         if evaluations != LEAPFROG:
             start_step(model, state, scratch)
         for k in range(evaluations):
+            end = start + (j + 1) * ds
             if evaluations == LEAPFROG:
-                at = 1.0
                 leapfrog_stage(model, state, h)
+                place_staggered_coupled_points(model, state, scratch.motion, end, h)
             elif k < evaluations - 1:
-                at = (k + 1) / (evaluations - 1)
                 euler_stage(model, state, h / (evaluations - 1))
+                speed_coupled_points(model, state, scratch.motion, end - ds * (evaluations - 2 - k) / (evaluations - 1))
             else:
-                at = 1.0
                 keep_tension(model, state, scratch)
                 last_stage(model, state, scratch, h / (evaluations - 1), evaluations)
-            place_coupled_points(model, state, scratch.motion, start + (j + at) * ds)
+                place_coupled_points(model, state, scratch.motion, end)
             evaluate(model, state, scratch, state.settings[0], state.settings[1], state.settings[2] != 0.0)
         if evaluations != LEAPFROG:
             uneven |= tension_jumped(model, state, scratch, UNEVEN)

@@ -13,29 +13,47 @@ from .tension import TINY
 
 
 @stage
-def place_node(state, node, place, velocity):
-    for k in range(3):
-        state.position[k, node] = place[k]
-        state.velocity[k, node] = velocity[k]
+def _move_coupled_points(model, state, motion, s, with_place, per_step):
+    place, velocity, phi, omega = platform_at(motion, s)
+    quaternion = (state.pose[3], state.pose[4], state.pose[5], state.pose[6])  # of the interval's start
+    for i in range(model.coupled_points.size):
+        p = model.coupled_points[i]
+        node = model.point_node[p]
+        arm = (model.point_place[p, 0], model.point_place[p, 1], model.point_place[p, 2])
+        arm = turned(phi, rotate(quaternion, arm))
+        spin = cross(omega, arm)
+        for k in range(3):
+            if with_place:
+                here = place[k] + arm[k]
+                moved = here - state.position[k, node]
+                state.position[k, node] = here
+                state.velocity[k, node] = velocity[k] + spin[k] if per_step == 0.0 else state.velocity[k, node] + moved * per_step
+            else:
+                state.velocity[k, node] = velocity[k] + spin[k]
 
 
 @stage
 def place_coupled_points(model, state, motion, s):
     """Put the nodes of the coupled points where the platform carries them at s in 0..1 of its interval."""
-    place, velocity, phi, omega = platform_at(motion, s)
-    quaternion = (state.pose[3], state.pose[4], state.pose[5], state.pose[6])  # of the interval's start
-    for p in range(model.point_node.size):
-        if model.point_kind[p] == POINT_COUPLED:
-            arm = (model.point_place[p, 0], model.point_place[p, 1], model.point_place[p, 2])
-            arm = turned(phi, rotate(quaternion, arm))
-            spin = cross(omega, arm)
-            node = model.point_node[p]
-            place_node(
-                state,
-                node,
-                (place[0] + arm[0], place[1] + arm[1], place[2] + arm[2]),
-                (velocity[0] + spin[0], velocity[1] + spin[1], velocity[2] + spin[2]),
-            )
+    _move_coupled_points(model, state, motion, s, True, 0.0)
+
+
+@stage
+def speed_coupled_points(model, state, motion, s):
+    """Give them their velocity only: inside a step they go on by Euler steps, as their neighbours do.
+
+    Exact places would stretch the end segments by what an Euler step misses, h^2/2 times the acceleration, and the stiff line answers.
+    """
+    _move_coupled_points(model, state, motion, s, False, 0.0)
+
+
+@stage
+def place_staggered_coupled_points(model, state, motion, s, h):
+    """For leapfrog, whose velocities stand half a step back: the place at s, and the mean velocity (m/s) over the step of h (s) before.
+
+    The step has moved the nodes with their old velocity.
+    """
+    _move_coupled_points(model, state, motion, s, True, 1.0 / h)
 
 
 @stage

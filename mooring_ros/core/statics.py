@@ -14,12 +14,15 @@ from .condense import condense_lines, spread
 from .forces import evaluate_once
 from .model import LOOSE, POINT_COUPLED, POINT_FIXED
 from .platform import rotate
-from .tangent import fill_tangent, predict_tension, stretch_linearly
+from .tangent import balance, fill_tangent, predict_tension, stretch_linearly
 
 TOLERANCE = 1e-9  # of the heaviest line's weight
-OWN_TENSION_ITERATIONS = 40
-DOWNHILL_ITERATIONS = 400
+OWN_TENSION_ITERATIONS = 60  # and one more for each segment of the longest line: nodes may leave the bed one by one
+DOWNHILL_ITERATIONS = 150
+SOFT_STRAINS, SOFT_TOLERANCE = (0.1, 0.01), 1e-4  # under the line's weight; of the weight
 LEAST_DAMPING = 1e-13
+SMALLEST_SHARE = 0.01  # of a step
+STRAIN_SCALE = 10.0  # a strain of 10 % counts like a force of the line's weight
 
 
 @dataclass(frozen=True)
@@ -44,17 +47,13 @@ class StaticSolver:
         self.work = np.zeros((6, 3, 3))
         self.move = np.zeros((3, n))
         self.end_move = np.zeros((2 * lines, 3))
-        self.weights = [
-            (line.type.mass - env.water_density * 0.25 * np.pi * line.type.diameter**2) * env.gravity
-            for env in [scene.environment]
-            for line in scene.lines
-        ]
         self.lengths = [line.length for line in scene.lines]
         load = np.abs(model.weight) + np.abs(model.buoyancy)
         tension = model.live * model.stiffness * 1e-6  # a scale where nothing weighs
         self.scale = np.maximum(load, 1e-6 * max(load.max(), tension.max())) / np.maximum(model.length, 1e-6)
         line_weight = max(load[s : s + k + 1].sum() for s, k in zip(model.first_node, model.segments))
-        self.tolerance = TOLERANCE * max(line_weight, load.max(), tension.max())
+        self.weight = max(line_weight, load.max(), tension.max())
+        self.tolerance = TOLERANCE * self.weight
 
     # -- placing ----------------------------------------------------------------------------------------------------------------------
 
@@ -77,17 +76,21 @@ class StaticSolver:
             held = [state.end_point[2 * line + end] for end in (0, 1)]
             a, b = (state.position[:, model.point_node[p]] if p != LOOSE else None for p in held)
             a, b = self._loose_ends(line, a, b)
-            shape, tension = catenary.guess(
-                a, b, self.lengths[line], count + 1, self.weights[line], model.stiffness[start + 1], self._resting_level(line)
-            )
+            weight, level = self._weight_and_level(line, 0.5 * (a[2] + b[2]) > 0.0)
+            shape, tension = catenary.guess(a, b, self.lengths[line], count + 1, weight, model.stiffness[start + 1], level)
             state.position[:, start : start + count + 1] = shape
             state.tension[start + 1 : start + count + 1] = 0.5 * (tension[1:] + tension[:-1])
 
-    def _resting_level(self, line):
-        """z (m) at which a line lies in the bed under its own weight; -inf where no bed carries it."""
-        node = self.model.first_node[line]
-        carried = self.model.bed_stiffness[node] / (0.5 * self.model.length[node + 1])  # N/m for each metre
-        return self.model.bed_level - max(self.weights[line], 0.0) / carried if carried > 0.0 else -np.inf
+    def _weight_and_level(self, line, in_air):
+        """Weight (N/m) that shapes a line, and the z (m) at which the bed, or the water's surface, holds it."""
+        model, node = self.model, self.model.first_node[line]
+        lumped = 0.5 * model.length[node + 1]
+        weight, buoyancy = model.weight[node] / lumped, model.buoyancy[node] / lumped
+        if weight >= buoyancy or in_air:
+            submerged = weight if in_air else weight - buoyancy
+            carried = model.bed_stiffness[node] / lumped  # N/m for each metre
+            return submerged, model.bed_level - submerged / carried if carried > 0.0 else -np.inf
+        return weight - buoyancy, (0.5 - weight / buoyancy) * model.diameter[node + 1]
 
     def _loose_ends(self, line, a, b):
         """A line let go of hangs straight down from its other end, or lies on the bed."""
@@ -108,7 +111,7 @@ class StaticSolver:
         best = _Best()
         iterations = self._with_own_tensions(state, scratch, free, goal, best)
         if best.residual > goal:
-            iterations += self._downhill(state, scratch, free, goal, best)
+            iterations += self._by_softening(state, scratch, free, goal, best)
         state.position[:] = best.position
         residual = self._evaluate(state, scratch, free)
         return StaticResult(iterations, residual, goal, bool(residual <= goal))
@@ -119,10 +122,12 @@ class StaticSolver:
         Eliminated from the linear system, they leave its matrix as it is, but with the tension predicted by the last step in place of that
         of the present strain; a segment goes slack when its predicted tension does.
         """
-        tension = state.tension.copy()
-        damping = 1e-3
-        for iteration in range(1, OWN_TENSION_ITERATIONS + 1):
-            residual = self._evaluate(state, scratch, free)
+        tension, predicted = state.tension.copy(), np.zeros_like(state.tension)
+        damping, rejected = 1e-3, 0
+        most = OWN_TENSION_ITERATIONS + int(self.model.segments.max())
+        merit = self._merit(state, scratch, tension, free)
+        for iteration in range(1, most + 1):
+            residual = self._residual(state, free)
             best.keep(residual, state)
             if residual <= goal:
                 return iteration - 1
@@ -130,11 +135,33 @@ class StaticSolver:
             step = self._step(state, scratch, damping, free)
             if step is None:
                 return iteration
-            shorten = self._shorten(step)
-            predict_tension(self.model, state, step, tension)
-            state.position[:] += step
-            damping = max(0.1 * damping, LEAST_DAMPING) if not shorten else damping
-        return OWN_TENSION_ITERATIONS
+            self._shorten(step)
+            predict_tension(self.model, state, step, predicted)
+            share, merit = self._search_with_tensions(state, scratch, step, tension, predicted, merit, free)
+            damping = max(0.1 * damping, LEAST_DAMPING) if share == 1.0 else min(10.0 * damping, 1.0) if share < 0.2 else damping
+            rejected = rejected + 1 if share < SMALLEST_SHARE else 0
+            if rejected > 8:
+                return iteration
+        return most
+
+    def _search_with_tensions(self, state, scratch, step, tension, predicted, merit, free):
+        """Halve the step until positions and tensions together are better balanced; returns (share, merit) and leaves them there."""
+        start, old = state.position.copy(), tension.copy()
+        share = 1.0
+        while True:
+            state.position[:] = start + share * step
+            tension[:] = old + share * (predicted - old)
+            new = self._merit(state, scratch, tension, free)
+            if new <= (1.0 - 0.1 * share) * merit or share < SMALLEST_SHARE:
+                return share, new
+            share *= 0.5
+
+    def _merit(self, state, scratch, tension, free):
+        """Forces out of balance with tensions of their own, over the weight, and the strains that these tensions miss, in one norm."""
+        _evaluate_at_rest(self.model, state, scratch)
+        missed = balance(self.model, state, tension, self.move)
+        force = _gathered(self.model, state, self.move)[:, free] / self.weight
+        return float(np.hypot(np.sqrt((force**2).sum()), STRAIN_SCALE * missed))
 
     def _shorten(self, step):
         """Keep the longest move below a share of the lines' length; True when it was not."""
@@ -145,12 +172,38 @@ class StaticSolver:
         step *= reach / longest
         return True
 
+    def _by_softening(self, state, scratch, free, goal, best):
+        """Downhill with lines soft enough to move far, then stiffened stage by stage: each finds the next one's shape and tensions."""
+        stiff = self.model
+        state.position[:] = best.start
+        iterations = 0
+        try:
+            for strain in SOFT_STRAINS:
+                soft = np.minimum(stiff.stiffness, self.weight / strain)
+                self.model = stiff._replace(stiffness=np.where(stiff.live > 0.0, soft, 0.0))
+                stage = _Best()
+                iterations += self._downhill(state, scratch, free, SOFT_TOLERANCE * self.weight, stage)
+                state.position[:] = stage.position
+                self._evaluate(state, scratch, free)
+                iterations += self._with_own_tensions(state, scratch, free, SOFT_TOLERANCE * self.weight, stage)
+                state.position[:] = stage.position
+                self._evaluate(state, scratch, free)
+        finally:
+            self.model = stiff
+        iterations += self._with_own_tensions(state, scratch, free, goal, best)
+        if best.residual > goal:
+            state.position[:] = best.position
+            iterations += self._downhill(state, scratch, free, goal, best)
+        return iterations
+
     def _downhill(self, state, scratch, free, goal, best):
-        """Damped Newton with a line search from the best positions so far: slow and sure."""
-        state.position[:] = best.position
+        """Damped Newton with a line search from the present positions: slow and sure."""
         residual = self._evaluate(state, scratch, free)
-        damping, stalled = 1.0, 0
+        best.keep(residual, state)
+        damping = 1.0
         for iteration in range(1, DOWNHILL_ITERATIONS + 1):
+            if best.residual <= goal:
+                return iteration - 1
             step = self._step(state, scratch, damping, free)
             if step is None:
                 damping = max(damping, 1e-10) * 100.0
@@ -158,23 +211,21 @@ class StaticSolver:
             self._shorten(step)
             share, residual = self._search(state, scratch, step, free)
             damping = max(damping * (0.1 if share >= 1.0 else 0.5 if share > 0.3 else 3.0), LEAST_DAMPING)
-            stalled = 0 if residual < 0.9 * best.residual else stalled + 1
             best.keep(residual, state)
-            if residual <= goal:
-                return iteration
-            if stalled > 60:
-                damping, stalled = 1.0, 30
         return DOWNHILL_ITERATIONS
 
     def _rounding(self, state):
-        """The force that rounding of the positions alone makes in the stiffest segment (N)."""
+        """The force that rounding of the positions alone makes in the stiffest segment or bed spring (N)."""
         model = self.model
-        axial = (model.live * model.stiffness * model.inverse_length).max()
-        return 16.0 * axial * np.finfo(float).eps * max(np.abs(state.position).max(), 1.0)
+        stiffest = max((model.live * model.stiffness * model.inverse_length).max(), model.bed_stiffness.max())
+        return 16.0 * stiffest * np.finfo(float).eps * max(np.abs(state.position).max(), 1.0)
 
     def _evaluate(self, state, scratch, free):
         _evaluate_at_rest(self.model, state, scratch)
-        return float(np.sqrt((_gathered(self.model, state)[:, free] ** 2).sum(axis=0).max())) if free.any() else 0.0
+        return self._residual(state, free)
+
+    def _residual(self, state, free):
+        return float(np.sqrt((_gathered(self.model, state, state.force)[:, free] ** 2).sum(axis=0).max(initial=0.0)))
 
     def _step(self, state, scratch, damping, free):
         """Newton step (3, n) of the nodes, or None when the system is singular."""
@@ -286,12 +337,14 @@ class StaticSolver:
 
 
 class _Best:
-    """The positions with the least residual so far."""
+    """The positions with the least residual so far, and the first ones."""
 
     def __init__(self):
-        self.residual, self.position = np.inf, None
+        self.residual, self.position, self.start = np.inf, None, None
 
     def keep(self, residual, state):
+        if self.start is None:
+            self.start = state.position.copy()
         if self.position is None or residual < self.residual:
             self.residual, self.position = residual, state.position.copy()
 
@@ -324,13 +377,13 @@ def _free_rows(model, state):
     return rows
 
 
-def _gathered(model, state):
+def _gathered(model, state, force):
     """(3, n) forces with those of held ends added to their points."""
-    force = state.force.copy()
+    gathered = force.copy()
     for e, p in enumerate(state.end_point):
         if p != LOOSE:
-            force[:, model.point_node[p]] += state.force[:, model.end_node[e]]
-    return force
+            gathered[:, model.point_node[p]] += force[:, model.end_node[e]]
+    return gathered
 
 
 def _free_dofs(model):

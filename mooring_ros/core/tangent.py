@@ -149,3 +149,26 @@ def predict_tension(model, state, move, tension):
             growth += q[k] * (move[k, i + 1] - move[k, i])
         strain = (length + growth) * model.inverse_length[i + 1] - 1.0
         tension[i + 1] = max(model.live[i + 1] * model.stiffness[i + 1] * strain, 0.0)
+
+
+@kernel
+def balance(model, state, tension, force):
+    """Forces (3, n) of the nodes with tensions (n,) of their own in place of the state's; returns the norm of the strains that these miss.
+
+    `evaluate` must have run at the positions.
+    """
+    missed = 0.0
+    for i in range(model.size):
+        for k in range(3):
+            left = (tension[i] - state.tension[i]) * state.tangent[k, i]
+            right = (tension[i + 1] - state.tension[i + 1]) * state.tangent[k, i + 1]
+            force[k, i] = state.force[k, i] + right - left
+        if model.live[i + 1] > 0.0:
+            length = 0.0
+            for k in range(3):
+                length += state.tangent[k, i + 1] * (state.position[k, i + 1] - state.position[k, i])
+            strain = length * model.inverse_length[i + 1] - 1.0 - tension[i + 1] / model.stiffness[i + 1]
+            if tension[i + 1] <= 0.0:
+                strain = max(strain, 0.0)
+            missed += strain * strain
+    return np.sqrt(missed)
