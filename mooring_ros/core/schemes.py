@@ -12,6 +12,8 @@ imaginary axis it grows by about 0.012 (h w)^4 a step: far below what water take
 vacuum leapfrog is the one to use.
 """
 
+import math
+
 import numpy as np
 
 LEAPFROG = 1  # a scheme is named by its number of evaluations a step
@@ -29,10 +31,10 @@ def polynomial(stages):
 def stable_step(scheme, omega, zeta):
     """Largest stable h (s) for the modes w s with damping ratio zeta s, s in (0, 1], where w = `omega` (rad/s)."""
     if scheme == LEAPFROG:
-        return 2.0 * (np.sqrt(1.0 + zeta**2) - zeta) / omega
+        return 2.0 * (math.sqrt(1.0 + zeta**2) - zeta) / omega
     # inside the disc |z + R| <= R, R = s - 1: |lambda|^2 h <= -2 R Re lambda, and h |lambda| <= 2 R where a mode is overdamped
     reach = 2.0 * (scheme - 1) / omega
-    return reach * zeta if zeta <= 1.0 else reach / (zeta + np.sqrt(zeta**2 - 1.0))
+    return reach * zeta if zeta <= 1.0 else reach / (zeta + math.sqrt(zeta**2 - 1.0))
 
 
 def step_table(limits, largest_step):
