@@ -7,8 +7,9 @@ import numpy as np
 
 from mooring_ros.core.forces import evaluate_once
 from mooring_ros.core.readings import observe
-from mooring_ros.scene import COUPLED, FIXED, Environment, Line, LineType, Point, Scene
+from mooring_ros.scene import COUPLED, FIXED, FREE, Environment, Line, LineType, Point, Scene
 
+KINDS = (FIXED, COUPLED, FREE)
 TESTS = Path(__file__).parent
 SCENES = TESTS.parent / "config" / "scenes"
 HERE = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
