@@ -41,7 +41,12 @@ def main(argv=None):
     failed = []
     for name in chosen.names or BENCHMARKS:
         print(f"\n== {name}: {BENCHMARKS[name]}", flush=True)
-        result = importlib.import_module(f".{name}", __package__).run(chosen.quick)
+        try:
+            module = importlib.import_module(f".{name}", __package__)
+        except ModuleNotFoundError as missing:
+            print(f"bench: {name} needs the package {missing.name}, which is not installed; ./run bench installs the peers", file=sys.stderr)
+            return 2
+        result = module.run(chosen.quick)
         result["machine"] = facts
         (chosen.output / f"{name}.json").write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
         if chosen.docs:

@@ -63,9 +63,10 @@ def peer_sweep(scene, segments, motion, reference, settings):
 
 def our_sweep(scene, segments, motion, reference, quick):
     """The same for ours: the default step and finer ones, by ``run`` at several sample rates and by ``step``."""
-    settings = [("run", 10.0, None), ("run", 20.0, None), ("run", 100.0, None), ("step", 20.0, None), ("step", 100.0, None)]
+    limit = float(ours.Mooring(scene, solver="explicit", segments=segments).step_limit.dt)
+    settings = [("run", 5.0, None), ("run", 10.0, None), ("run", 20.0, None), ("run", 100.0, None), ("step", 20.0, None), ("step", 100.0, None)]
+    settings += [("run", 1.0 / (whole * limit), None) for whole in {1, max(1, round(0.1 / limit)), max(1, round(0.2 / limit))}]
     if not quick:
-        limit = ours.Mooring(scene, solver="explicit", segments=segments).step_limit.dt
         settings += [("run", 20.0, limit * x) for x in (0.75, 0.5, 0.25)]
     rows = []
     for call, rate, dt in settings:
@@ -142,7 +143,7 @@ def _peer_name(row):
 
 def _our_name(row):
     step = "default step" if row["dt"] is None else f"dt {1e3 * row['dt']:.2f} ms"
-    return f"`{row['call']}` at {row['rate']:.0f} Hz, {step}"
+    return f"`{row['call']}` at {row['rate']:.3g} Hz, {step}"
 
 
 def _summary(r):
