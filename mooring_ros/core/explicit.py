@@ -116,8 +116,9 @@ def take_steps(model, state, scratch, evaluations, h, steps, start, ds):
                 leapfrog_stage(model, state, h)
                 place_staggered_coupled_points(model, state, scratch.motion, end, h)
             elif k < evaluations - 1:
-                euler_stage(model, state, h / (evaluations - 1))
-                speed_coupled_points(model, state, scratch.motion, end - ds * (evaluations - 2 - k) / (evaluations - 1))
+                part = 1.0 / (evaluations - 1)
+                euler_stage(model, state, h * part)
+                speed_coupled_points(model, state, scratch.motion, end - ds * (evaluations - 2 - k) * part, h * part)
             else:
                 keep_tension(model, state, scratch)
                 last_stage(model, state, scratch, h / (evaluations - 1), evaluations)

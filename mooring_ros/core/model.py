@@ -1,11 +1,11 @@
 """Scene -> Model (constant arrays) and State (changing arrays).
 
 All nodes of all lines stand one after the other in one structure of arrays, each line's end nodes its own; between lines lies a null
-segment (no stiffness, not counted in tangents). Every point of the scene is a node as well, after those of the lines, between null
-segments: its own mass, volume, drag and bed contact then come from the same passes. The rows are padded with massless-force dummies to a
-multiple of `LANES`, so that a pass is one plain loop without a remainder.
+segment (no stiffness, not counted in tangents). Every point of the scene is a node as well. Free points and those with a mass, volume or
+drag of their own stand after the lines, between null segments, and the same passes serve them. Then come dummies that feel no force, up to
+a multiple of `LANES`: a pass is one plain loop over range(size) without a remainder. Points that are merely held stand beyond it.
 
-Segment i+1 joins nodes i and i+1; segment i is the one to the left of node i. Rows have `size + 1` entries; passes run over range(size).
+Segment i+1 joins nodes i and i+1; segment i is the one to the left of node i.
 """
 
 from typing import NamedTuple
@@ -14,7 +14,7 @@ import numpy as np
 
 from ..scene import COUPLED, FIXED
 
-LANES = 16  # nodes: the widest vector times the unrolling that LLVM chooses
+LANES = 8  # nodes: a whole number of vectors
 
 # kinds of points
 POINT_FIXED, POINT_COUPLED, POINT_FREE = 0, 1, 2
@@ -22,7 +22,7 @@ LOOSE = -1  # an end that nothing holds any more
 
 
 class Model(NamedTuple):
-    """What does not change. n = size + 1; E = 2 x lines (end A, end B of each in turn); P = points. World frame, SI."""
+    """What does not change. n = all nodes and one more; E = 2 x lines (end A, end B of each in turn); P = points. World frame, SI."""
 
     size: int  # nodes a pass runs over: a multiple of LANES
     # segments, (n,)
@@ -106,9 +106,11 @@ def build(scene, segments=None):
     """Model of `scene`; `segments` (int) overrides every line's number of segments."""
     counts = with_segments(scene, segments)
     line_nodes = sum(counts) + len(counts)
-    nodes = line_nodes + len(scene.points)
-    size = -(-nodes // LANES) * LANES
-    n = size + 1
+    loaded = [point.kind not in _KINDS or point.mass + point.volume + point.drag_area > 0.0 for point in scene.points]
+    size = -(-(line_nodes + sum(loaded)) // LANES) * LANES
+    inside, beyond = iter(range(line_nodes, size)), iter(range(size + 1, size + 1 + len(loaded)))
+    point_nodes = [next(inside) if own else next(beyond) for own in loaded]
+    n = size + 2 + len(loaded) - sum(loaded)
     env = scene.environment
     rows = {
         name: np.zeros(n)
@@ -116,7 +118,7 @@ def build(scene, segments=None):
     }
     rows["inverse_length"][:] = 1.0
     rows["length"][:] = 1.0
-    rows["mass"][nodes:] = 1.0
+    rows["mass"][line_nodes + sum(loaded) : size + 1] = 1.0
 
     point_index = {point.id: i for i, point in enumerate(scene.points)}
     end_node, end_point, first_node, fairlead_end = [], [], [], []
@@ -129,7 +131,7 @@ def build(scene, segments=None):
         kinds = [scene.point(id).kind for id in (line.end_a, line.end_b)]
         fairlead_end.append(0 if kinds[0] == COUPLED and kinds[1] != COUPLED else 1)
         start += count + 1
-    diameters = [_place_point(rows, point, line_nodes + i, env) for i, point in enumerate(scene.points)]
+    diameters = [_place_point(rows, point, node, env) for point, node in zip(scene.points, point_nodes)]
 
     kinds = np.array([_KINDS.get(point.kind, POINT_FREE) for point in scene.points], dtype=np.int64)
     model = Model(
@@ -139,7 +141,7 @@ def build(scene, segments=None):
         current=np.array(env.current, dtype=float),
         gravity=float(env.gravity),
         end_node=np.array(end_node, dtype=np.int64),
-        point_node=np.arange(line_nodes, nodes, dtype=np.int64),
+        point_node=np.array(point_nodes, dtype=np.int64),
         point_kind=kinds,
         point_place=np.array([point.position for point in scene.points], dtype=float).reshape(-1, 3),
         point_diameter=np.array(diameters, dtype=float),
@@ -213,7 +215,7 @@ def _place_point(rows, point, node, env):
 
 def new_state(model, end_point):
     """State at rest, everything at the origin; `statics.settle` places it."""
-    n = model.size + 1
+    n = model.mass.size
     return State(
         clock=np.zeros(1),
         pose=np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]),
@@ -227,8 +229,8 @@ def new_state(model, end_point):
         tension=np.zeros(n),
         strain_rate=np.zeros(n),
         wet=np.ones(n),
-        inertia_normal=np.ones(n),
-        inertia_axial=np.ones(n),
+        inertia_normal=np.zeros(n),
+        inertia_axial=np.zeros(n),
         bed_relief=np.ones(n),
         end_point=end_point.copy(),
         settings=np.array([0.0, 0.0, 0.0, 1.0, 0.0]),
@@ -236,5 +238,5 @@ def new_state(model, end_point):
 
 
 def new_scratch(model):
-    n = model.size + 1
+    n = model.mass.size
     return Scratch(np.zeros((3, n)), np.zeros((3, n)), np.ones(n), np.zeros((2, 6, n)), np.zeros(n), np.zeros((8, 3)))

@@ -13,7 +13,7 @@ from .tension import TINY
 
 
 @stage
-def _move_coupled_points(model, state, motion, s, with_place, per_step):
+def _move_coupled_points(model, state, motion, s, with_place, euler_step, staggered):
     place, velocity, phi, omega = platform_at(motion, s)
     quaternion = (state.pose[3], state.pose[4], state.pose[5], state.pose[6])  # of the interval's start
     for i in range(model.coupled_points.size):
@@ -23,37 +23,35 @@ def _move_coupled_points(model, state, motion, s, with_place, per_step):
         arm = turned(phi, rotate(quaternion, arm))
         spin = cross(omega, arm)
         for k in range(3):
+            if node >= model.size:  # beyond the passes: an Euler step has not moved it yet
+                state.position[k, node] += euler_step * state.velocity[k, node]
+            here, speed = place[k] + arm[k], velocity[k] + spin[k]
+            if staggered:
+                speed = state.velocity[k, node] + (here - state.position[k, node]) / euler_step
+            state.velocity[k, node] = speed
             if with_place:
-                here = place[k] + arm[k]
-                moved = here - state.position[k, node]
                 state.position[k, node] = here
-                state.velocity[k, node] = velocity[k] + spin[k] if per_step == 0.0 else state.velocity[k, node] + moved * per_step
-            else:
-                state.velocity[k, node] = velocity[k] + spin[k]
 
 
 @stage
 def place_coupled_points(model, state, motion, s):
     """Put the nodes of the coupled points where the platform carries them at s in 0..1 of its interval."""
-    _move_coupled_points(model, state, motion, s, True, 0.0)
+    _move_coupled_points(model, state, motion, s, True, 0.0, False)
 
 
 @stage
-def speed_coupled_points(model, state, motion, s):
-    """Give them their velocity only: inside a step they go on by Euler steps, as their neighbours do.
+def speed_coupled_points(model, state, motion, s, euler_step):
+    """Give them their velocity only: inside a step they go on by Euler steps (s), as their neighbours do.
 
     Exact places would stretch the end segments by what an Euler step misses, h^2/2 times the acceleration, and the stiff line answers.
     """
-    _move_coupled_points(model, state, motion, s, False, 0.0)
+    _move_coupled_points(model, state, motion, s, False, euler_step, False)
 
 
 @stage
 def place_staggered_coupled_points(model, state, motion, s, h):
-    """For leapfrog, whose velocities stand half a step back: the place at s, and the mean velocity (m/s) over the step of h (s) before.
-
-    The step has moved the nodes with their old velocity.
-    """
-    _move_coupled_points(model, state, motion, s, True, 1.0 / h)
+    """For leapfrog, whose velocities stand half a step back: the place at s, and the mean velocity over the step of h (s) before."""
+    _move_coupled_points(model, state, motion, s, True, h, True)
 
 
 @stage

@@ -14,7 +14,7 @@ import numpy as np
 from .schemes import LEAPFROG, SAFETY, SSP, stable_step
 
 REFERENCE_SPEED = 2.0  # m/s, at which the drag's own limit is stated
-ACCURACY = 0.6  # of count / w = L / (2 c): 0.3 % of the dynamic tension on the OC4 chains (docs/measurements.md)
+ACCURACY = 0.66  # of count / w = L / (2 c): 0.3 % of the dynamic tension on the OC4 chains (docs/measurements.md)
 
 
 @dataclass(frozen=True)

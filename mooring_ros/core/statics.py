@@ -39,7 +39,7 @@ class StaticSolver:
     """Work arrays of the static solution of one model."""
 
     def __init__(self, scene, model):
-        n, lines = model.size + 1, len(model.first_node)
+        n, lines = model.mass.size, len(model.first_node)
         self.model = model
         self.diagonal, self.above, self.below = np.zeros((n, 3, 3)), np.zeros((n, 3, 3)), np.zeros((n, 3, 3))
         self.c, self.a, self.g = np.zeros((n, 3, 3)), np.zeros((n, 3, 3)), np.zeros((n, 3))
@@ -368,7 +368,7 @@ def _evaluate_at_rest(model, state, scratch):
 
 def _free_rows(model, state):
     """(n,) mask of the nodes that must be in balance: interior nodes, loose ends and free points."""
-    rows = np.zeros(model.size + 1, dtype=bool)
+    rows = np.zeros(model.mass.size, dtype=bool)
     for start, count in zip(model.first_node, model.segments):
         rows[start + 1 : start + count] = True
     for e, p in enumerate(state.end_point):
