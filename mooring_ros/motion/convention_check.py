@@ -66,8 +66,9 @@ class ConventionCheck:
         for option in self._options:
             middle = [0.5 * (a + b) for a, b in zip(last[2][option], twists[option])]
             misfit = self._misfit[option]
-            misfit[0] += math.dist(middle[:3], differenced[:3]) ** 2
-            misfit[1] += math.dist(middle[3:], differenced[3:]) ** 2
+            linear, angular = math.dist(middle[:3], differenced[:3]), math.dist(middle[3:], differenced[3:])
+            misfit[0] += linear * linear
+            misfit[1] += angular * angular
         self._twist += sum(component * component for component in raw_twist)
         self._motion[0] += sum(v * v for v in differenced[:3])
         self._motion[1] += sum(w * w for w in differenced[3:])

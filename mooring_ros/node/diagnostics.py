@@ -16,6 +16,7 @@ class Diagnostics:
     def __init__(self, hardware_id):
         self._hardware_id = hardware_id
         self._grown = {}
+        self._session = None
 
     def array(self, now, stamp, lifecycle, session=None, problem="", timing=None, recorder=None):
         """The DiagnosticArray of this moment.
@@ -23,6 +24,9 @@ class Diagnostics:
         lifecycle: label of the node's state. session: of the activation, or None. problem: why the node could not be configured, or "".
         timing: name -> value, with "missed" counted; recorder: the RecordingWriter, or None.
         """
+        if session is not self._session:
+            self._session = session
+            self._grown = {}
         message = DiagnosticArray()
         message.header.stamp = stamp
         message.status = [self._input(now, session), self._core(now, session, lifecycle, problem), self._timing(now, timing or {}),

@@ -49,10 +49,10 @@ class MooringNode(LifecycleNode):
     def __init__(self, **keywords):
         super().__init__("mooring", **keywords)
         self._session = self._inputs = self._outputs = self._recorder = self._mooring = self._adapter = None
-        self._services = []
+        self._own_services = []
         self._timer = self._rate = None
         self._problem = ""
-        self._said = ""
+        self._said, self._refused = None, 0
         self._durations = Durations()
         parameters.declare(self, lambda: self._mooring is not None)
         self.add_post_set_parameters_callback(lambda _: self._apply_live_parameters())
@@ -84,6 +84,7 @@ class MooringNode(LifecycleNode):
         check = None if values["input"] == "pose" else ConventionCheck(self._adapter)
         gate = Gate(self._adapter, Limits(), values["world_frame"], values["platform_frame"])
         self._session = Session(self._mooring, gate, Output(), check)
+        self._said, self._refused = self._session.state, 0
         self._apply_live_parameters()
         if values["timing.mode"] == "timer":
             self._rate = FixedRate(values["timing.rate"])
@@ -161,11 +162,11 @@ class MooringNode(LifecycleNode):
         return recorder
 
     def _make_services(self, line_names):
-        self._services_of_configuration = [
+        self._own_services = [
             self.create_service(Trigger, "~/settle", self._serve(lambda session: session.settle())),
             self.create_service(Trigger, "~/hold", self._serve(lambda session: session.hold()))]
         for name in line_names:
-            self._services_of_configuration.append(
+            self._own_services.append(
                 self.create_service(Trigger, f"~/lines/{name}/release", self._serve(lambda session, name=name: session.release(name))))
 
     def _end_session(self):
@@ -180,9 +181,9 @@ class MooringNode(LifecycleNode):
 
     def _take_down(self):
         self._end_session()
-        for service in getattr(self, "_services_of_configuration", []):
+        for service in self._own_services:
             self.destroy_service(service)
-        self._services_of_configuration = []
+        self._own_services = []
         if self._outputs is not None:
             self._outputs.destroy()
         recorder, self._recorder = self._recorder, None
@@ -235,12 +236,18 @@ class MooringNode(LifecycleNode):
         self._say_state()
 
     def _say_state(self):
-        """Log and publish at once when the session starts, stops, or begins to refuse."""
+        """Log and publish at once when the session starts, stops, or begins to refuse; log refused samples now and then."""
         session = self._session
         if session.state != self._said:
             self._said = session.state
-            (self.get_logger().info if session.state == RUNNING else self.get_logger().error)(f"{session.state}: {session.cause}".rstrip(": "))
+            if session.state == RUNNING:
+                self.get_logger().info("running")
+            else:
+                self.get_logger().error(f"{session.state}: {session.cause}; ~/settle restarts")
             self.publish_diagnostics("active")
+        elif session.gate.received > session.gate.accepted + self._refused:
+            self._refused = session.gate.received - session.gate.accepted
+            self.get_logger().warning(f"input refused, {self._refused} so far, the last: {session.gate.cause}", throttle_duration_sec=5.0)
 
     # --- services, parameters, diagnostics ---
 

@@ -3,7 +3,8 @@ import struct
 
 import numpy as np
 from builtin_interfaces.msg import Time
-from rclpy.serialization import serialize_message
+
+from mooring_ros.node.clean_cdr import serialize
 
 _STAMP = struct.Struct("<iI")
 # A stamp that no real message has: where it stands in the bytes, the real one goes.
@@ -33,7 +34,7 @@ class Template:
     """
 
     def __init__(self, message, slots):
-        self._bytes = serialize_message(message)
+        self._bytes = serialize(message)
         self._stamps = list(_find(self._bytes, _PLACEHOLDER_BYTES))
         self._slots = []
         for slot in slots:
