@@ -14,6 +14,7 @@ BENCHMARKS = {
     "bergdahl": "the 33 m laboratory chain: 30 measured maxima",
     "node_latency": "the ROS 2 node: input stamp to wrench, against an empty echo node",
 }
+MODULES = {"node_latency": "latency_table"}  # where it is not the name itself
 DOCUMENT = Path(__file__).parent.parent / "docs" / "measurements.md"
 
 
@@ -42,7 +43,7 @@ def main(argv=None):
     for name in chosen.names or BENCHMARKS:
         print(f"\n== {name}: {BENCHMARKS[name]}", flush=True)
         try:
-            module = importlib.import_module(f".{name}", __package__)
+            module = importlib.import_module(f".{MODULES.get(name, name)}", __package__)
         except ModuleNotFoundError as missing:
             print(f"bench: {name} needs the package {missing.name}, which is not installed; ./run bench installs the peers", file=sys.stderr)
             return 2

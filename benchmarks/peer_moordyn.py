@@ -5,23 +5,13 @@ tension against the same code's converged run, over the standard deviation of th
 of ramp are left out. Each code is timed by its own CPU time in the step calls, in this one process, runs of the two alternating.
 """
 
-from pathlib import Path
-
-import numpy as np
-
 from mooring_ros.scene import load_scene
 
 from . import moordyn_peer, ours, tables
 from .errors import dynamic_difference
+from .moordyn_history import CASES, SCENES, transit_time
 from .motions import SurgeHeave
 
-SCENES = Path(__file__).parent.parent / "config" / "scenes"
-CASES = (
-    ("OC4 3 x 20", "oc4_semi.txt", 20),
-    ("OC4 3 x 40", "oc4_semi.txt", 40),
-    ("OC4 3 x 100", "oc4_semi.txt", 100),
-    ("VolturnUS-S 3 x 50", "volturnus_s_chain.txt", 50),
-)
 # MoorDyn's scheme and its step as a multiple of a segment's axial transit time; each family up to where it blows up
 PEER_SETTINGS = (
     *(("Euler", x) for x in (0.15, 0.3, 0.4, 0.6, 0.65)),
@@ -38,11 +28,6 @@ ALLOWED = 0.01  # error at which costs are compared
 GOAL_RATIO = 10.0
 GOAL_DIFFERENCE = 0.005
 TIMINGS = 3  # alternating runs of each code's best; the fastest of each counts
-
-
-def transit_time(scene, segments):
-    """Time (s) in which an axial wave runs through the shortest segment."""
-    return min(n.length / segments * np.sqrt(n.type.mass / n.type.stiffness) for n in scene.lines)
 
 
 def peer_sweep(scene, segments, motion, reference, settings):
