@@ -21,7 +21,7 @@ CASES = (
 )
 FILE = Path(__file__).parent / "data" / "moordyn_converged.csv"
 MOTION = SurgeHeave(measured_periods=2.0)
-INTERVAL = 0.1  # s
+INTERVAL = 0.05  # s
 REFINEMENT = 10  # steps in a segment's transit time
 
 
@@ -59,7 +59,7 @@ def write():
         file.write(f"# Surge {MOTION.surge} m, heave {MOTION.heave} m, {MOTION.period} s, after {MOTION.ramp_periods} periods of ramp: benchmarks/motions.py\n")
         file.write(",".join(names) + "\n")
         for row in np.column_stack(columns):
-            file.write(",".join([f"{row[0]:.1f}", *(f"{x:.0f}" for x in row[1:])]) + "\n")
+            file.write(",".join([f"{row[0]:.2f}", *(f"{x:.0f}" for x in row[1:])]) + "\n")
 
 
 if __name__ == "__main__":

@@ -18,6 +18,7 @@ import numpy as np
 import rclpy
 from geometry_msgs.msg import WrenchStamped
 from nav_msgs.msg import Odometry
+from rclpy.executors import ExternalShutdownException
 from rclpy.experimental.events_executor import EventsExecutor
 from rclpy.qos import QoSProfile
 
@@ -43,7 +44,7 @@ def echo():
     node.create_subscription(Odometry, "echo/odom", answer, QoSProfile(depth=DEPTH))
     executor = EventsExecutor()
     executor.add_node(node)
-    with contextlib.suppress(KeyboardInterrupt):
+    with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException):
         while rclpy.ok():
             executor.spin_once(timeout_sec=0.2)
 
