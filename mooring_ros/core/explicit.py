@@ -16,8 +16,8 @@ DONE, RUNAWAY = 0, 1  # status codes
 
 CHUNK = 64  # largest steps between two looks at the guard
 HALVINGS = 6  # of the step, before an interval is given up
-UNEVEN = 0.1  # of the tension and the line's weight: the change of a tension from Euler steps to their mean that is too much
-UNEVEN_HALVINGS = 3  # of the step for that cause; a jump that stays is one of the line, not of the scheme
+UNEVEN = 0.1  # of the tension and the line's weight: the change of a tension, from Euler steps to their mean, that is too much
+MOST_REFINED = 8.0  # times finer steps for that cause; a jump that stays is one of the line, not of the scheme
 REFINED_STEPS = 40.0  # largest steps for which a finer step is kept
 DRAG_SAFETY = 0.9  # of the Euler step at which drag would turn a velocity round
 SURFACE_MARGIN, LIKELY_SPEED = 1.0, 5.0  # m, m/s: how far below the surface nodes may be before wet shares matter in a chunk
@@ -104,7 +104,8 @@ def leapfrog_stage(model, state, h):
 def take_steps(model, state, scratch, evaluations, h, steps, start, ds):
     """`steps` steps of h (s) from `start` of the interval, ds of it each; accelerations must be those of the current state.
 
-    Returns True when the tension of a segment differs too much between a step and the Euler steps that it is made of.
+    Returns True when the tension of a segment differs too much between a step and the Euler steps that it is made of, or in leapfrog's
+    case, from one step to the next: lines that snap from slack to taut pump energy out of long steps.
     """
     uneven = 0
     for j in range(steps):
@@ -113,6 +114,7 @@ def take_steps(model, state, scratch, evaluations, h, steps, start, ds):
         for k in range(evaluations):
             end = start + (j + 1) * ds
             if evaluations == LEAPFROG:
+                keep_tension(model, state, scratch)
                 leapfrog_stage(model, state, h)
                 place_staggered_coupled_points(model, state, scratch.motion, end, h)
             elif k < evaluations - 1:
@@ -124,8 +126,7 @@ def take_steps(model, state, scratch, evaluations, h, steps, start, ds):
                 last_stage(model, state, scratch, h / (evaluations - 1), evaluations)
                 place_coupled_points(model, state, scratch.motion, end)
             evaluate(model, state, scratch, state.settings[0], state.settings[1], state.settings[2] != 0.0)
-        if evaluations != LEAPFROG:
-            uneven |= tension_jumped(model, state, scratch, UNEVEN)
+        uneven |= tension_jumped(model, state, scratch, UNEVEN)
     return uneven != 0
 
 
@@ -134,7 +135,7 @@ def advance(model, state, scratch, table, time, pose, twist, speed_limit, report
     """Advance `state` to `time` (s), where the platform has `pose` (7,) and `twist` (6,). Returns a status code.
 
     `table`: from `schemes.step_table`. The interval is taken in chunks. One whose tensions come out uneven is taken again from its start
-    with half the step, up to `UNEVEN_HALVINGS` times, and the finer step is kept for a while; one that runs away up to `HALVINGS` times,
+    with half the step, down to one in `MOST_REFINED`, and the finer step is kept for a while; one that runs away up to `HALVINGS` times,
     and is then refused: the state is as it was. `report` (4,) gets evaluations, steps, chunks taken again and the shortest step (s).
     """
     duration = time - state.clock[0]
@@ -167,7 +168,7 @@ def advance(model, state, scratch, table, time, pose, twist, speed_limit, report
             uneven = take_steps(model, state, scratch, int(table[row, 0]), h, steps, start, 1.0 / (steps * chunks))
             evaluations_taken += steps * table[row, 0]
             wild = runaway(model, state, speed_limit)
-            if not wild and not (uneven and attempt < UNEVEN_HALVINGS):
+            if not wild and not (uneven and refined < MOST_REFINED):
                 break
         if wild:
             recall(model, state, scratch.saved[0])
