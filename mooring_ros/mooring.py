@@ -18,6 +18,7 @@ from .scene import Scene, load_scene
 FIDELITIES = ("dynamic",)
 SOLVERS = ("auto", "explicit")
 QUATERNION_TOLERANCE = 1e-3
+SWINGS, SWING_TIME = 30, 20.0  # s: how often and how long lines may swing where the statics do not converge at once
 IMPLAUSIBLE = 10.0  # times the speed that anything in the scene should reach: beyond, a step has blown up
 
 
@@ -90,14 +91,7 @@ class Mooring:
         pose = _checked_poses(_shaped(pose, (7,), "pose", "x, y, z, qx, qy, qz, qw"))
         if not np.isfinite(time):
             raise ValueError(f"time is {time!r}; expected a finite number of seconds")
-        state = _copy(self._state)
-        self._statics.place(state, pose)
-        result = self._statics.solve(state, self._scratch)
-        if not result.converged:
-            raise MooringError(
-                f"the statics did not converge in {result.iterations} iterations: "
-                f"{result.residual:.3g} N out of balance, {result.tolerance:.3g} N asked for"
-            )
+        state, result = self._static_state(pose)
         state.clock[0] = time
         _assign(self._state, state)
         self.static_result = result
@@ -254,11 +248,7 @@ class Mooring:
     def stiffness(self):
         """(6, 6) -d wrench / d pose of the static mooring at the present pose, N/m, N, N m; rotations about the world axes."""
         self._need_settled()
-        state = _copy(self._state)
-        self._statics.place(state, self._state.pose.copy())
-        result = self._statics.solve(state, self._scratch)
-        if not result.converged:
-            raise MooringError(f"the statics at the present pose did not converge: {result.residual:.3g} N out of balance")
+        state, _ = self._static_state(self._state.pose.copy())
         return self._statics.platform_stiffness(state, self._scratch)
 
     @property
@@ -268,6 +258,35 @@ class Mooring:
         return {"evaluations": int(evaluations), "steps": int(steps), "retries": int(retries), "dt": float(dt)}
 
     # -- inside -----------------------------------------------------------------------------------------------------------------------
+
+    def _static_state(self, pose):
+        """A State in equilibrium at `pose`, and its StaticResult; where Newton finds no way, lines swing and drag in the water first."""
+        state = _copy(self._state)
+        self._statics.place(state, pose)
+        result = self._statics.solve(state, self._scratch)
+        for _ in range(SWINGS):
+            if result.converged or not self._swing(state):
+                break
+            result = self._statics.solve(state, self._scratch)
+        if result.converged or result.residual <= self._statics.acceptable:
+            return state, result
+        raise MooringError(
+            f"the statics did not converge in {result.iterations} iterations: "
+            f"{result.residual:.3g} N out of balance, {result.tolerance:.3g} N asked for"
+        )
+
+    def _swing(self, state):
+        """Let the lines move for a while with the platform held; False when that runs away."""
+        state.clock[0] = 0.0
+        state.velocity[:] = 0.0
+        evaluate_once(self._model, state, self._scratch, 0.0, 0.0, True)
+        samples = np.arange(1, 11) * (0.1 * SWING_TIME)
+        status, _ = explicit.run(
+            self._model, state, self._scratch, self._table, samples, np.tile(state.pose, (10, 1)), np.zeros((10, 6)),
+            IMPLAUSIBLE * self._natural_speed(), np.zeros(4), new_readings(self._model, 10),
+        )
+        state.velocity[:] = 0.0
+        return status == explicit.DONE
 
     def _run(self, times, poses, twists, readings):
         speeds = np.abs(twists).max(axis=0)

@@ -16,7 +16,7 @@ from .model import LOOSE, POINT_COUPLED, POINT_FIXED
 from .platform import rotate
 from .tangent import balance, fill_tangent, predict_tension, stretch_linearly
 
-TOLERANCE = 1e-9  # of the heaviest line's weight
+TOLERANCE, ACCEPTABLE = 1e-9, 1e-6  # of the heaviest line's weight: what is asked for, and what will do when nothing finds more
 OWN_TENSION_ITERATIONS = 60  # and one more for each segment of the longest line: nodes may leave the bed one by one
 DOWNHILL_ITERATIONS = 150
 SOFT_STRAINS, SOFT_TOLERANCE = (0.1, 0.01), 1e-4  # under the line's weight; of the weight
@@ -53,7 +53,7 @@ class StaticSolver:
         self.scale = np.maximum(load, 1e-6 * max(load.max(), tension.max())) / np.maximum(model.length, 1e-6)
         line_weight = max(load[s : s + k + 1].sum() for s, k in zip(model.first_node, model.segments))
         self.weight = max(line_weight, load.max(), tension.max())
-        self.tolerance = TOLERANCE * self.weight
+        self.tolerance, self.acceptable = TOLERANCE * self.weight, ACCEPTABLE * self.weight
 
     # -- placing ----------------------------------------------------------------------------------------------------------------------
 
@@ -230,7 +230,7 @@ class StaticSolver:
     def _step(self, state, scratch, damping, free):
         """Newton step (3, n) of the nodes, or None when the system is singular."""
         model = self.model
-        fill_tangent(model, state, scratch, self.diagonal, self.above, self.below)
+        fill_tangent(model, state, self.diagonal, self.above, self.below)
         for k in range(3):
             self.diagonal[:, k, k] += damping * self.scale
         points = self.condense(state)
@@ -316,7 +316,7 @@ class StaticSolver:
         """(6, 6) minus the change of the wrench with the pose at an equilibrium in `state`; rotations about the world axes."""
         model = self.model
         _evaluate_at_rest(model, state, scratch)
-        fill_tangent(model, state, scratch, self.diagonal, self.above, self.below)
+        fill_tangent(model, state, self.diagonal, self.above, self.below)
         for k in range(3):
             self.diagonal[:, k, k] += 1e-10 * self.scale
         stiffness, load = self.condense(state)

@@ -6,13 +6,11 @@ diagonal[i], above[i], below[i] are the 3 x 3 blocks of node i with itself, with
 import numpy as np
 
 from .cache import kernel, stage
-from .surface import wet_shares
 
-SHIFT = 1e-4  # m, for the change of buoyancy with depth
 
 
 @kernel
-def fill_tangent(model, state, scratch, diagonal, above, below):
+def fill_tangent(model, state, diagonal, above, below):
     """Blocks at the current positions; `evaluate` must have run there with all velocities zero."""
     diagonal[:] = 0.0
     above[:] = 0.0
@@ -24,7 +22,7 @@ def fill_tangent(model, state, scratch, diagonal, above, below):
     if model.current[0] != 0.0 or model.current[1] != 0.0 or model.current[2] != 0.0:
         for i in range(model.size):
             _drag(model, state, i, diagonal, above, below)
-    _buoyancy(model, state, scratch, diagonal)
+    _buoyancy(model, state, diagonal, above, below)
 
 
 @stage
@@ -101,25 +99,30 @@ def _drag(model, state, i, diagonal, above, below):
 
 
 @stage
-def _buoyancy(model, state, scratch, diagonal):
-    """Loss of buoyancy as a node rises through the surface, its neighbours with it."""
-    z, wet = state.position[2], state.wet
-    crossing = False
+def _buoyancy(model, state, diagonal, above, below):
+    """Loss of buoyancy as the ends of a segment, or a point, rise through the surface (see `wet_shares`)."""
+    z = state.position[2]
     for i in range(model.size):
-        crossing |= wet[i] < 1.0
-    if not crossing:
-        return
-    for i in range(model.size):
-        z[i] += SHIFT
-    wet_shares(model, state, scratch)
-    for i in range(model.size):
-        diagonal[i, 2, 2] -= model.buoyancy[i] * wet[i] / (2.0 * SHIFT)
-        z[i] -= 2.0 * SHIFT
-    wet_shares(model, state, scratch)
-    for i in range(model.size):
-        diagonal[i, 2, 2] += model.buoyancy[i] * wet[i] / (2.0 * SHIFT)
-        z[i] += SHIFT
-    wet_shares(model, state, scratch)
+        if model.live[i + 1] == 0.0:
+            continue
+        radius = 0.5 * model.diameter[i + 1]
+        deep = max(-z[i], -z[i + 1]) + radius
+        shallow = min(-z[i], -z[i + 1]) - radius
+        if not (deep > 0.0 > shallow):
+            continue
+        extent = deep - shallow
+        by_lower, by_upper = -shallow / extent**2, deep / extent**2  # loss of wet share for each metre that an end rises
+        by_left, by_right = (by_lower, by_upper) if z[i] <= z[i + 1] else (by_upper, by_lower)
+        left, right = model.buoyancy[i] * model.share_right[i], model.buoyancy[i + 1] * model.share_left[i + 1]
+        diagonal[i, 2, 2] += left * by_left
+        above[i, 2, 2] += left * by_right
+        below[i + 1, 2, 2] += right * by_left
+        diagonal[i + 1, 2, 2] += right * by_right
+    for p in range(model.point_node.size):
+        node, diameter = model.point_node[p], model.point_diameter[p]
+        if diameter > 0.0:
+            under = min(max(0.5 - z[node] / diameter, 0.0), 1.0)
+            diagonal[node, 2, 2] += model.buoyancy[node] * 6.0 * under * (1.0 - under) / diameter
 
 
 @kernel

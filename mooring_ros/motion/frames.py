@@ -54,6 +54,10 @@ class Adapter:
             if not (math.isfinite(value) and value > 0.0):
                 raise ValueError(f"{name} is {value!r}, expected a positive number")
 
+    @property
+    def _as_inside(self):
+        return self.wrench_frame == "world" and self.convention == "enu" and self.scale == 1.0 and self.density_ratio == 1.0
+
     # --- inwards ---
 
     @property
@@ -113,8 +117,14 @@ class Adapter:
         return 1.0 / math.sqrt(self.scale)
 
     def wrenches_out(self, wrenches, pose):
-        """Wrenches (k, 6) in N and N·m, inside world axes, as the source wants them: axes, convention and scale. Pose is inside."""
-        out = np.array(wrenches, dtype=float)
+        """Wrenches (k, 6) in N and N·m, inside world axes, as the source wants them: axes, convention and scale. Pose is inside.
+
+        The array itself where nothing is to be done.
+        """
+        out = np.asarray(wrenches, dtype=float)
+        if self._as_inside:
+            return out
+        out = out.copy()
         if self.wrench_frame == "body":
             turn = np.array(rotation.matrix(pose[3:7]))
             out[:, :3] = out[:, :3] @ turn

@@ -1,8 +1,9 @@
 """Serialization with equal bytes for equal messages.
 
-CDR leaves gaps before fields that are aligned, and rclpy leaves in them whatever was in memory. Here they are zero.
+CDR leaves gaps before fields that are aligned, and rclpy leaves in them whatever was in memory; here they are zero. After a message with
+empty sequences it leaves a few bytes too many; here they are cut off.
 """
-from rclpy.serialization import serialize_message
+from rclpy.serialization import deserialize_message, serialize_message
 
 _HEADER = 4     # bytes of encapsulation; alignment counts from after them
 _SIZES = {"boolean": 1, "octet": 1, "char": 1, "int8": 1, "uint8": 1, "int16": 2, "uint16": 2, "int32": 4, "uint32": 4, "float": 4,
@@ -14,9 +15,10 @@ def serialize(message):
     data = serialize_message(message)
     walk = _Walk(data)
     walk.message(message)
-    if walk.end != len(data):
-        raise ValueError(f"{type(message).__name__} takes {len(data)} bytes, expected {walk.end}")
-    return bytes(walk.clean)
+    clean = bytes(walk.clean[:walk.end])
+    if deserialize_message(clean, type(message)) != deserialize_message(data, type(message)):
+        raise ValueError(f"the layout of {type(message).__name__} is not understood")
+    return clean
 
 
 class _Walk:
@@ -50,7 +52,7 @@ class _Walk:
         if kind not in _SIZES:
             for value in values:
                 self._field(value, kind)
-        else:   # an empty sequence is aligned all the same
+        elif len(values):
             self._take(_SIZES[kind] * len(values), _SIZES[kind])
 
     def _take(self, size, alignment):

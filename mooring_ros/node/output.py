@@ -50,7 +50,7 @@ class Output:
             self._begin_ramp(time, self.hold_time)
 
     def apply(self, time, wrenches):
-        """The wrenches (k, 6) that go out at time (s), for the computed ones."""
+        """The wrenches (k, 6) that go out at time (s), for the computed ones, which are handed over: they may be the answer."""
         target = self._safe if self.holding else wrenches
         share = self._ramp_share(time)
         out = target if share >= 1.0 else share * target + (1.0 - share) * self._base
@@ -64,7 +64,7 @@ class Output:
             if size > most:
                 out = self._sent + (most / size) * change
                 self.limited[FORCE_RATE] += 1
-        self._sent, self._sent_at = np.array(out), time
+        self._sent, self._sent_at = out, time
         return out
 
     def _begin_ramp(self, time, duration):

@@ -151,10 +151,10 @@ class Session:
     def _settle_at(self, motion):
         if self._origin is None or motion.stamp < self._stepped:
             self._origin = motion.stamp
-        time, pose = self._seconds(motion.stamp), np.array(motion.pose)
+        time, pose = self._seconds(motion.stamp), motion.pose
         self._stepped = motion.stamp
         try:
-            self.mooring.settle(pose, time=time)
+            self.mooring.settle(np.array(pose), time=time)
         except (MooringError, ValueError) as error:
             return self._fail(f"cannot settle: {error}")
         self._act(motion.stamp, schedule.encode_settle, time, pose)
@@ -164,9 +164,9 @@ class Session:
         return motion.stamp
 
     def _step(self, stamp, pose, twist, answers=None):
-        time, pose, twist = self._seconds(stamp), np.array(pose), np.array(twist)
+        time = self._seconds(stamp)
         try:
-            self.mooring.step(time, pose, twist)
+            self.mooring.step(time, np.array(pose), np.array(twist))
         except (MooringError, ValueError) as error:
             return self._fail(str(error))
         self.steps += 1
@@ -185,7 +185,10 @@ class Session:
         return None
 
     def _computed(self):
-        return np.vstack((self.mooring.wrench, self.mooring.coupled_wrenches))
+        coupled = self.mooring.coupled_wrenches
+        wrenches = np.empty((1 + len(coupled), 6))
+        wrenches[0], wrenches[1:] = self.mooring.wrench, coupled
+        return wrenches
 
     def _set_wrenches(self, stamp):
         self.wrenches = self.output.apply(stamp * 1e-9, self._computed())
