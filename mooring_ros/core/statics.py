@@ -306,7 +306,7 @@ class StaticSolver:
                 low, slope_low = share, slope
             if high is None:
                 break
-            guess = low + (high - low) * slope_low / (slope_low - slope_high)
+            guess = low + (high - low) * (slope_low / (slope_low - slope_high) if slope_low > slope_high else 0.5)
             share = min(max(guess, low + 0.02 * (high - low)), high - 0.1 * (high - low))
         return share, residual
 
