@@ -1,12 +1,12 @@
 """A small moored scene, a motion for it, and `mooring` run inside this process."""
 
 import json
-import math
 
-import numpy as np
 import pytest
 
 from mooring_ros.offline.__main__ import main
+
+from motion_files import write_motion
 
 SCENE = """\
 Two chains, small and quick
@@ -38,16 +38,6 @@ def scene(tmp_path):
     """Path of the scene."""
     path = tmp_path / "scene.txt"
     path.write_text(SCENE)
-    return path
-
-
-def write_motion(path, duration=6.0, step=0.1):
-    """CSV of a surge and pitch motion that starts at rest."""
-    rows = ["t,x,y,z,roll,pitch,yaw"]
-    for instant in np.arange(0.0, duration + step / 2, step):
-        surge = 2.0 * (1.0 - math.cos(2.0 * math.pi * instant / 6.0))
-        rows.append(f"{instant:.3f},{surge!r},0,0,0,{surge / 2!r},0")
-    path.write_text("\n".join(rows) + "\n")
     return path
 
 

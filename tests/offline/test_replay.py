@@ -9,7 +9,7 @@ import time
 
 import numpy as np
 import pytest
-from conftest import write_motion
+from motion_files import write_motion
 
 from mooring_ros.mooring import Mooring, MooringError
 from mooring_ros.offline.history import load_history
