@@ -31,7 +31,7 @@ def mooring():
 def test_clean_bytes_are_the_same_message_and_always_the_same_bytes(message):
     data = serialize(message)
     assert deserialize_message(data, type(message)) == message
-    assert len(data) == len(serialize_message(message))
+    assert len(data) <= len(serialize_message(message))
     assert all(serialize(message) == data for _ in range(20))
 
 
