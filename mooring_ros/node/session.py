@@ -73,7 +73,7 @@ class Session:
         elif self.output.holding == AGE_HOLD:
             self.output.release(shown * 1e-9)
         if ahead > horizon or shown <= self._stepped:
-            self._set_wrenches(shown)
+            self._set_wrenches(shown, self._computed())
             return motion.stamp
         pose = carry_on(motion, ahead * self.gate.adapter.time_factor)
         return self._step(shown, pose, motion.twist, answers=motion.stamp)
@@ -88,6 +88,8 @@ class Session:
             return False, "no valid input yet; the first one settles"
         if relocated:
             self.clock.restart()
+        elif self._stepped is not None:     # the timer mode may have carried the last motion on: time does not go back
+            motion = motion._replace(stamp=max(motion.stamp, self._stepped))
         if self.check is not None and self.state == REFUSED:
             self.check = type(self.check)(self.gate.adapter)
         if self._settle_at(motion) is None:
@@ -159,8 +161,9 @@ class Session:
             return self._fail(f"cannot settle: {error}")
         self._act(motion.stamp, schedule.encode_settle, time, pose)
         self.state, self.cause = RUNNING, ""
-        self.output.start(motion.stamp * 1e-9, self._computed())
-        self._set_wrenches(motion.stamp)
+        computed = self._computed()
+        self.output.start(motion.stamp * 1e-9, computed)
+        self._set_wrenches(motion.stamp, computed)
         return motion.stamp
 
     def _step(self, stamp, pose, twist, answers=None):
@@ -169,11 +172,15 @@ class Session:
             self.mooring.step(time, np.array(pose), np.array(twist))
         except (MooringError, ValueError) as error:
             return self._fail(str(error))
+        computed = self._computed()
+        # The last line of defence: whatever happens inside, nothing that is not a number goes to an actuator.
+        if not math.isfinite(computed.sum()):
+            return self._fail(f"the step to t = {time:.6g} s gave a wrench that is not finite")
         self.steps += 1
         self._stepped = stamp
         answers = stamp if answers is None else answers
         self._act(answers, schedule.encode_step, time, pose, twist)
-        self._set_wrenches(stamp)
+        self._set_wrenches(stamp, computed)
         return answers
 
     def _act(self, stamp, encode, *values):
@@ -190,8 +197,8 @@ class Session:
         wrenches[0], wrenches[1:] = self.mooring.wrench, coupled
         return wrenches
 
-    def _set_wrenches(self, stamp):
-        self.wrenches = self.output.apply(stamp * 1e-9, self._computed())
+    def _set_wrenches(self, stamp, computed):
+        self.wrenches = self.output.apply(stamp * 1e-9, computed)
 
 
 def carry_on(motion, seconds):
