@@ -1,6 +1,6 @@
 """The façade: one mooring, for the live node, the replay and Python alike."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -268,7 +268,9 @@ class Mooring:
             if result.converged or not self._swing(state):
                 break
             result = self._statics.solve(state, self._scratch)
-        if result.converged or result.residual <= self._statics.acceptable:
+        if not result.converged and result.residual <= self._statics.acceptable:
+            result = replace(result, tolerance=self._statics.acceptable, converged=True)
+        if result.converged:
             return state, result
         raise MooringError(
             f"the statics did not converge in {result.iterations} iterations: "
@@ -300,7 +302,7 @@ class Mooring:
         )
         if status != explicit.DONE:
             error = MooringError(
-                f"the step to t = {times[done]:.6g} s ran away (speeds above {limit:.3g} m/s) even with a step of "
+                f"the step to t = {times[done]:.6g} s ran away (speeds above {limit:.3g} m/s, or tensions that collapse) even with a step of "
                 f"{self.step_limit.dt / 2**explicit.HALVINGS:.3g} s; the mooring stands at t = {self.time:.6g} s"
             )
             error.samples = done

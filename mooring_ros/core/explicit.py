@@ -4,7 +4,7 @@ import numpy as np
 
 from .cache import kernel, stage
 from .forces import evaluate, evaluate_once
-from .guard import keep_tension, recall, runaway, save, tension_jumped
+from .guard import EVEN, TORN, UNEVEN, keep_tension, recall, runaway, save, tension_jumped
 from .platform import start_motion
 from .points import place_coupled_points, place_staggered_coupled_points, speed_coupled_points
 from .readings import show
@@ -16,7 +16,7 @@ DONE, RUNAWAY = 0, 1  # status codes
 
 CHUNK = 64  # largest steps between two looks at the guard
 HALVINGS = 6  # of the step, before an interval is given up
-UNEVEN = 0.1  # of the tension and the line's weight: the change of a tension, from Euler steps to their mean, that is too much
+JUMP = 0.1  # of the tension and the line's weight: the change of a tension, from Euler steps to their mean, that is too much
 MOST_REFINED = 8.0  # times finer steps for that cause; a jump that stays is one of the line, not of the scheme
 REFINED_STEPS = 40.0  # largest steps for which a finer step is kept
 DRAG_SAFETY = 0.9  # of the Euler step at which drag would turn a velocity round
@@ -56,9 +56,8 @@ def look_at_surface(model, state, margin):
 
 
 @stage
-def evaluate_at(model, state, scratch, s):
-    """Evaluate with the coupled points at s of the interval in scratch.motion and the settings in the state."""
-    place_coupled_points(model, state, scratch.motion, s)
+def evaluate_again(model, state, scratch):
+    """Evaluate from recalled positions and velocities with the settings in the state."""
     evaluate_once(model, state, scratch, state.settings[0], state.settings[1], state.settings[2] != 0.0)
 
 
@@ -104,10 +103,10 @@ def leapfrog_stage(model, state, h):
 def take_steps(model, state, scratch, evaluations, h, steps, start, ds):
     """`steps` steps of h (s) from `start` of the interval, ds of it each; accelerations must be those of the current state.
 
-    Returns True when the tension of a segment differs too much between a step and the Euler steps that it is made of, or in leapfrog's
-    case, from one step to the next: lines that snap from slack to taut pump energy out of long steps.
+    Returns the worst of `tension_jumped` from the Euler steps of a step to their mean, or in leapfrog's case from one step to the next:
+    lines that snap from slack to taut pump energy out of long steps.
     """
-    uneven = 0
+    worst = EVEN
     for j in range(steps):
         if evaluations != LEAPFROG:
             start_step(model, state, scratch)
@@ -126,8 +125,8 @@ def take_steps(model, state, scratch, evaluations, h, steps, start, ds):
                 last_stage(model, state, scratch, h / (evaluations - 1), evaluations)
                 place_coupled_points(model, state, scratch.motion, end)
             evaluate(model, state, scratch, state.settings[0], state.settings[1], state.settings[2] != 0.0)
-        uneven |= tension_jumped(model, state, scratch, UNEVEN)
-    return uneven != 0
+        worst = max(worst, tension_jumped(model, state, scratch, JUMP))
+    return worst
 
 
 @stage
@@ -135,7 +134,7 @@ def advance(model, state, scratch, table, time, pose, twist, speed_limit, report
     """Advance `state` to `time` (s), where the platform has `pose` (7,) and `twist` (6,). Returns a status code.
 
     `table`: from `schemes.step_table`. The interval is taken in chunks. One whose tensions come out uneven is taken again from its start
-    with half the step, down to one in `MOST_REFINED`, and the finer step is kept for a while; one that runs away up to `HALVINGS` times,
+    with half the step, down to one in `MOST_REFINED`, and the finer step is kept for a while; one that runs away or tears up to `HALVINGS` times,
     and is then refused: the state is as it was. `report` (4,) gets evaluations, steps, chunks taken again and the shortest step (s).
     """
     duration = time - state.clock[0]
@@ -164,11 +163,11 @@ def advance(model, state, scratch, table, time, pose, twist, speed_limit, report
             adapt(model, state, h / table[row, 2])
             look_at_surface(model, state, SURFACE_MARGIN + span * LIKELY_SPEED)
             if attempt > 0:
-                evaluate_at(model, state, scratch, start)
-            uneven = take_steps(model, state, scratch, int(table[row, 0]), h, steps, start, 1.0 / (steps * chunks))
+                evaluate_again(model, state, scratch)
+            tensions = take_steps(model, state, scratch, int(table[row, 0]), h, steps, start, 1.0 / (steps * chunks))
             evaluations_taken += steps * table[row, 0]
-            wild = runaway(model, state, speed_limit)
-            if not wild and not (uneven and refined < MOST_REFINED):
+            wild = runaway(model, state, speed_limit) or tensions == TORN
+            if not wild and not (tensions == UNEVEN and refined < MOST_REFINED):
                 break
         if wild:
             recall(model, state, scratch.saved[0])
@@ -176,7 +175,7 @@ def advance(model, state, scratch, table, time, pose, twist, speed_limit, report
             set_bed_relief(model, state, settings[1])
             if settings[2] == 0.0:
                 all_wet(model, state)
-            evaluate_at(model, state, scratch, 0.0)
+            evaluate_again(model, state, scratch)
             return RUNAWAY
         steps_taken += steps
         shortest = min(shortest, h)

@@ -2,6 +2,8 @@
 
 from .cache import stage
 
+EVEN, UNEVEN, TORN = 0, 1, 2
+
 
 @stage
 def runaway(model, state, speed_limit):
@@ -18,7 +20,7 @@ def runaway(model, state, speed_limit):
 @stage
 def save(model, state, copy):
     for k in range(3):
-        for i in range(model.size + 1):
+        for i in range(model.mass.size):
             copy[k, i] = state.position[k, i]
             copy[3 + k, i] = state.velocity[k, i]
 
@@ -26,7 +28,7 @@ def save(model, state, copy):
 @stage
 def recall(model, state, copy):
     for k in range(3):
-        for i in range(model.size + 1):
+        for i in range(model.mass.size):
             state.position[k, i] = copy[k, i]
             state.velocity[k, i] = copy[3 + k, i]
 
@@ -39,8 +41,14 @@ def keep_tension(model, state, scratch):
 
 @stage
 def tension_jumped(model, state, scratch, share):
-    """1 when a tension differs from the kept one by more than `share` of it and of the line's weight, else 0."""
-    jumped = 0
+    """EVEN, UNEVEN when a tension differs from the kept one by more than `share` of it and of the line's weight, TORN when one has collapsed.
+
+    However stiff a line, snapping taut only adds tension: a drop by more than what is left and the line's weight is not the line's doing.
+    """
+    jumped, collapsed = 0, 0
     for i in range(model.size + 1):
-        jumped |= abs(state.tension[i] - scratch.tension[i]) > share * (state.tension[i] + model.tension_scale[i])
-    return jumped
+        change = state.tension[i] - scratch.tension[i]
+        measure = state.tension[i] + model.tension_scale[i]
+        jumped |= abs(change) > share * measure
+        collapsed |= -change > measure
+    return TORN if collapsed != 0 else UNEVEN if jumped != 0 else EVEN
