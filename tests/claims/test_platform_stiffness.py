@@ -70,7 +70,7 @@ def difference(mooring, pose, steps):
 def test_stiffness_is_the_derivative_of_the_settled_wrench(file, pose):
     """Fourth-order differences of the wrench after settle, 1e-6 of the matrix's scale; steps so small that no node changes contact."""
     mooring = Mooring(SCENES / file, segments=50)
-    want = difference(mooring, pose, [1e-3] * 3 + [2e-5] * 3)
+    want = difference(mooring, pose, [2e-4] * 3 + [4e-6] * 3)
     mooring.settle(pose)
     got = mooring.stiffness()
     scale = np.sqrt(np.outer(np.abs(np.diag(want)), np.abs(np.diag(want))))
@@ -85,7 +85,7 @@ def test_stiffness_with_free_points_is_the_derivative_too():
     lines = [(kind, 1, 2, 360.0, 30), (kind, 2, 3, 48.0, 6), (kind, 2, 4, 48.0, 6), (kind, 5, 6, 310.0, 30)]
     mooring = Mooring(scene(points, lines, depth=100.0))
     pose = np.concatenate([[1.0, -2.0, 0.5], turn([1, 1, 3], 0.1)])
-    want = difference(mooring, pose, [1e-3] * 3 + [2e-5] * 3)
+    want = difference(mooring, pose, [2e-4] * 3 + [4e-6] * 3)
     mooring.settle(pose)
     scale = np.sqrt(np.outer(np.abs(np.diag(want)), np.abs(np.diag(want))))
     assert (np.abs(mooring.stiffness() - want) / scale).max() < 1e-6
