@@ -29,13 +29,14 @@ def symmetric(scene):
     return dataclasses.replace(scene, points=tuple(points))
 
 
+@pytest.mark.parametrize("segments", [800, 1000, 1500])
 @pytest.mark.parametrize("case", CASES)
-def test_stiffness_and_force_at_rest_are_those_of_the_catenaries(case):
-    """system_stiffness_6x6.csv at 800 segments: each non-zero entry and the vertical force within 1 %, zeros within 1e-5 of their neighbours.
+def test_stiffness_and_force_at_rest_are_those_of_the_catenaries(case, segments):
+    """system_stiffness_6x6.csv at 800 segments and more (the error wobbles, as the line leaves the bed within a segment): each non-zero entry and the vertical force within 1 %, zeros within 1e-5 of their neighbours.
 
     The table stands on a rigid bed; the scenes' bed gives way by some millimetres. Scenes with exact symmetry, so that zeros are zeros.
     """
-    mooring = Mooring(symmetric(load_scene(SCENES / CASES[case])), segments=800)
+    mooring = Mooring(symmetric(load_scene(SCENES / CASES[case])), segments=segments)
     mooring.settle(HERE)
     want, force = closed_form(case)
     got = mooring.stiffness()
