@@ -10,8 +10,8 @@ from pathlib import Path
 import numba
 import numpy as np
 
-from mooring_ros.core.explicit import evaluate_at
 from mooring_ros.core.forces import evaluate
+from mooring_ros.core.points import place_coupled_points
 from mooring_ros.scene import load_scene
 
 from . import ours, tables
@@ -36,7 +36,8 @@ def repeat_evaluation(model, state, scratch, count):
 def repeat_evaluation_in_step(model, state, scratch, count):
     """The same as a step does it: the platform's points are moved first, and wet shares computed if anything is near the surface."""
     for _ in range(count):
-        evaluate_at(model, state, scratch, 0.5)
+        place_coupled_points(model, state, scratch.motion, 0.5)
+        evaluate(model, state, scratch, state.settings[0], state.settings[1], state.settings[2] != 0.0)
 
 
 @numba.njit(nogil=True)

@@ -1,5 +1,6 @@
 """The façade: one mooring, for the live node, the replay and Python alike."""
 
+import hashlib
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -7,6 +8,7 @@ import numpy as np
 
 from .core import explicit
 from .core.forces import evaluate_once
+from .core.guard import FASTEST
 from .core.model import LOOSE, State, build, new_scratch, new_state
 from .core.readings import new_readings, observe
 from .core.schemes import step_table
@@ -15,17 +17,17 @@ from .core.statics import StaticSolver
 from .errors import MooringError
 from .scene import Scene, load_scene
 
-FIDELITIES = ("dynamic",)
+FIDELITIES = ("dynamic", "quasi_static")
 SOLVERS = ("auto", "explicit")
 QUATERNION_TOLERANCE = 1e-3
 SWINGS, SWING_TIME = 30, 20.0  # s: how often and how long lines may swing where the statics do not converge at once
-IMPLAUSIBLE = 10.0  # times the speed that anything in the scene should reach: beyond, a step has blown up
 
 
 @dataclass(frozen=True)
 class Snapshot:
     """A copy of everything that changes in a mooring; opaque, for `Mooring.restore`."""
 
+    mooring: str
     state: State
     readings: tuple
     settled: bool
@@ -49,7 +51,8 @@ class History:
 class Mooring:
     """Mooring lines between the ground and a moving platform.
 
-    scene: path of a MoorDyn v2 file, or a `Scene`. fidelity: "dynamic". solver: "auto" or "explicit". dt: largest step of the solver (s),
+    scene: path of a MoorDyn v2 file, or a `Scene`. fidelity: "dynamic", or "quasi_static": equilibrium at every sample, without inertia, damping
+    and drag of the motion (dt has no meaning then). solver: "auto" or "explicit". dt: largest step of the solver (s),
     None for the largest that is stable; a dt beyond that is not taken. segments: segments of every line, None for the file's.
 
     pose is (7,): x, y, z (m) and a unit quaternion x, y, z, w; twist is (6,): velocity (m/s) of the reference point and angular velocity
@@ -70,7 +73,7 @@ class Mooring:
         self.fidelity = fidelity
         self.solver = "explicit"
         self._model, ends = build(self.scene, None if segments is None else int(segments))
-        self._initial_ends = ends
+        self._identity = hashlib.sha256(b"".join(np.asarray(part).tobytes() for part in self._model)).hexdigest()
         self._state = new_state(self._model, ends)
         self._scratch = new_scratch(self._model)
         self._statics = StaticSolver(self.scene, self._model)
@@ -154,12 +157,12 @@ class Mooring:
 
     def snapshot(self):
         """A copy of everything that changes, for `restore`."""
-        return Snapshot(_copy(self._state), tuple(array.copy() for array in self._readings), self._settled)
+        return Snapshot(self._identity, _copy(self._state), tuple(array.copy() for array in self._readings), self._settled)
 
     def restore(self, saved):
-        """Go back to a snapshot of this mooring, bit for bit. Raises ValueError for one of another mooring."""
-        if not isinstance(saved, Snapshot) or saved.state.position.shape != self._state.position.shape:
-            raise ValueError("this is not a snapshot of this mooring")
+        """Go back to a snapshot of this mooring or one like it, bit for bit. Raises ValueError for one of another mooring."""
+        if not isinstance(saved, Snapshot) or saved.mooring != self._identity:
+            raise ValueError("this is not a snapshot of a mooring like this one")
         _assign(self._state, saved.state)
         for mine, theirs in zip(self._readings, saved.readings):
             mine[:] = theirs
@@ -259,11 +262,16 @@ class Mooring:
 
     # -- inside -----------------------------------------------------------------------------------------------------------------------
 
-    def _static_state(self, pose):
-        """A State in equilibrium at `pose`, and its StaticResult; where Newton finds no way, lines swing and drag in the water first."""
+    def _static_state(self, pose, warm=False):
+        """A State in equilibrium at `pose`, and its StaticResult; where Newton finds no way, lines swing and drag in the water first.
+
+        `warm`: from the present shape; otherwise, or when that fails, from the catenaries.
+        """
         state = _copy(self._state)
-        self._statics.place(state, pose)
+        self._statics.place(state, pose, first_guess=not warm)
         result = self._statics.solve(state, self._scratch)
+        if warm and not result.converged:
+            return self._static_state(pose)
         for _ in range(SWINGS):
             if result.converged or not self._swing(state):
                 break
@@ -284,37 +292,42 @@ class Mooring:
         evaluate_once(self._model, state, self._scratch, 0.0, 0.0, True)
         samples = np.arange(1, 11) * (0.1 * SWING_TIME)
         status, _ = explicit.run(
-            self._model, state, self._scratch, self._table, samples, np.tile(state.pose, (10, 1)), np.zeros((10, 6)),
-            IMPLAUSIBLE * self._natural_speed(), np.zeros(4), new_readings(self._model, 10),
+            self._model, state, self._scratch, self._table, samples, np.tile(state.pose, (10, 1)), np.zeros((10, 6)), np.zeros(4),
+            new_readings(self._model, 10),
         )
         state.velocity[:] = 0.0
         return status == explicit.DONE
 
     def _run(self, times, poses, twists, readings):
-        speeds = np.abs(twists).max(axis=0)
-        arm = np.abs(self._model.point_place[self._model.coupled_points]).max(initial=0.0)
-        moved = np.diff(poses[:, :3], axis=0, prepend=self._state.pose[None, :3])
-        spans = np.diff(times, prepend=self._state.clock[0])
-        carried = np.abs(moved / spans[:, None]).max() + np.linalg.norm(speeds[:3]) + arm * (np.linalg.norm(speeds[3:]) + np.pi / spans.min())
-        limit = IMPLAUSIBLE * (self._natural_speed() + carried)
+        if self.fidelity == "quasi_static":
+            return self._run_statics(times, poses, twists, readings)
         status, done = explicit.run(
-            self._model, self._state, self._scratch, self._table, times, poses, twists, limit, self._report, readings
+            self._model, self._state, self._scratch, self._table, times, poses, twists, self._report, readings
         )
         if status != explicit.DONE:
-            error = MooringError(
-                f"the step to t = {times[done]:.6g} s ran away (speeds above {limit:.3g} m/s, or tensions that collapse) even with a step of "
-                f"{self.step_limit.dt / 2**explicit.HALVINGS:.3g} s; the mooring stands at t = {self.time:.6g} s"
-            )
+            cause = {
+                explicit.RUNAWAY: "ran away (speeds that nothing here can cause, or tensions that collapse) even with a step of "
+                f"{self.step_limit.dt / 2**explicit.HALVINGS:.3g} s",
+                explicit.TOO_FAST: f"moves the platform faster than {FASTEST:g} m/s",
+            }[status]
+            error = MooringError(f"the step to t = {times[done]:.6g} s {cause}; the mooring stands at t = {self.time:.6g} s")
             error.samples = done
             raise error
         return done
 
-    def _natural_speed(self):
-        """A speed (m/s) that a sound mooring hardly passes: free fall through its height, the current, and 5 % strain let loose."""
-        env = self.scene.environment
-        fall = env.depth + max(line.length for line in self.scene.lines)
-        recoil = 0.05 * max(np.sqrt(line.type.stiffness / line.type.mass) for line in self.scene.lines)
-        return np.sqrt(2.0 * env.gravity * fall) + np.linalg.norm(env.current) + recoil
+    def _run_statics(self, times, poses, twists, readings):
+        for sample, pose in enumerate(poses):
+            try:
+                state, result = self._static_state(pose, warm=True)
+            except MooringError as failure:
+                failure.samples = sample
+                raise
+            state.clock[0] = times[sample]
+            state.twist[:] = twists[sample]
+            _assign(self._state, state)
+            self._report[:] = result.iterations, 1.0, 0.0, times[sample] - self.time
+            observe(self._model, self._state, sample, readings)
+        return times.size
 
     def _need_settled(self):
         if not self._settled:

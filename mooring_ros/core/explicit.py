@@ -4,7 +4,7 @@ import numpy as np
 
 from .cache import kernel, stage
 from .forces import evaluate, evaluate_once
-from .guard import EVEN, TORN, UNEVEN, keep_tension, recall, runaway, save, tension_jumped
+from .guard import EVEN, FASTEST, IMPLAUSIBLE, TORN, UNEVEN, keep_tension, recall, runaway, save, speed_of_ends, tension_jumped
 from .platform import start_motion
 from .points import place_coupled_points, place_staggered_coupled_points, speed_coupled_points
 from .readings import show
@@ -12,7 +12,7 @@ from .schemes import LEAPFROG
 from .seabed import set_bed_relief
 from .surface import all_wet, reaches_above
 
-DONE, RUNAWAY = 0, 1  # status codes
+DONE, RUNAWAY, TOO_FAST = 0, 1, 2  # status codes
 
 CHUNK = 64  # largest steps between two looks at the guard
 HALVINGS = 6  # of the step, before an interval is given up
@@ -130,7 +130,7 @@ def take_steps(model, state, scratch, evaluations, h, steps, start, ds):
 
 
 @stage
-def advance(model, state, scratch, table, time, pose, twist, speed_limit, report):
+def advance(model, state, scratch, table, time, pose, twist, report):
     """Advance `state` to `time` (s), where the platform has `pose` (7,) and `twist` (6,). Returns a status code.
 
     `table`: from `schemes.step_table`. The interval is taken in chunks. One whose tensions come out uneven is taken again from its start
@@ -139,6 +139,10 @@ def advance(model, state, scratch, table, time, pose, twist, speed_limit, report
     """
     duration = time - state.clock[0]
     start_motion(state.pose, state.twist, pose, twist, duration, scratch.motion)
+    ends = speed_of_ends(model, state.twist, twist, scratch.motion)
+    if not ends <= FASTEST:
+        return TOO_FAST
+    fastest = IMPLAUSIBLE * (model.natural_speed + ends)
     largest = table[0, 1]
     for row in range(table.shape[0]):
         largest = max(largest, table[row, 1])
@@ -166,7 +170,7 @@ def advance(model, state, scratch, table, time, pose, twist, speed_limit, report
                 evaluate_again(model, state, scratch)
             tensions = take_steps(model, state, scratch, int(table[row, 0]), h, steps, start, 1.0 / (steps * chunks))
             evaluations_taken += steps * table[row, 0]
-            wild = runaway(model, state, speed_limit) or tensions == TORN
+            wild = runaway(model, state, fastest) or tensions == TORN
             if not wild and not (tensions == UNEVEN and refined < MOST_REFINED):
                 break
         if wild:
@@ -195,10 +199,10 @@ def advance(model, state, scratch, table, time, pose, twist, speed_limit, report
 
 
 @kernel
-def run(model, state, scratch, table, times, poses, twists, speed_limit, report, readings):
+def run(model, state, scratch, table, times, poses, twists, report, readings):
     """Advance through samples: times (k,), poses (k, 7), twists (k, 6); readings get a row for each. Returns (status, samples done)."""
     for sample in range(times.size):
-        status = advance(model, state, scratch, table, times[sample], poses[sample], twists[sample], speed_limit, report)
+        status = advance(model, state, scratch, table, times[sample], poses[sample], twists[sample], report)
         if status != DONE:
             return status, sample
         show(model, state, sample, readings)

@@ -1,19 +1,36 @@
 """What a step may not leave behind: numbers that are no numbers, speeds that nothing in the scene can cause, tensions that jump."""
 
+import numpy as np
+
 from .cache import stage
 
 EVEN, UNEVEN, TORN = 0, 1, 2
+IMPLAUSIBLE = 10.0  # times the speed that anything in the scene should reach: beyond, a step has blown up
+FASTEST = 1e5  # m/s that a platform may be said to move at
 
 
 @stage
-def runaway(model, state, speed_limit):
-    """True when a node is faster than `speed_limit` (m/s) or not a number."""
+def speed_of_ends(model, twist0, twist1, motion):
+    """Speed (m/s) that coupled points do not pass in an interval between two twists (6,), with its `motion` (platform.start_motion)."""
+    square, turn, moved, turned = 0.0, 0.0, 0.0, 0.0
+    for k in range(3):
+        square = max(square, twist0[k] ** 2, twist1[k] ** 2)
+        turn = max(turn, twist0[3 + k] ** 2, twist1[3 + k] ** 2)
+        moved += (motion[2, k] - motion[0, k]) ** 2
+        turned += motion[4, k] ** 2
+    return 2.0 * np.sqrt(square) + 2.0 * model.reach * np.sqrt(turn) + (np.sqrt(moved) + model.reach * np.sqrt(turned)) / motion[7, 0]
+
+
+@stage
+def runaway(model, state, fastest):
+    """True when a node is faster than `fastest` (m/s), or a place, speed or tension is not a finite number."""
     u, v, w = state.velocity[0], state.velocity[1], state.velocity[2]
-    z = state.position[2]
-    limit = speed_limit * speed_limit
+    z, tension = state.position[2], state.tension
+    limit = fastest * fastest
     bad = 0
     for i in range(model.size):
         bad |= not (u[i] * u[i] + v[i] * v[i] + w[i] * w[i] + 0.0 * z[i] <= limit)
+        bad |= not (tension[i] < np.inf)
     return bad != 0
 
 

@@ -48,7 +48,8 @@ class Model(NamedTuple):
     # environment
     bed_level: float  # z of the bed, m
     current: np.ndarray  # (3,), m/s
-    gravity: float  # m/s^2
+    natural_speed: float  # m/s that a sound mooring hardly passes while its ends stand still
+    reach: float  # m from the platform's reference point to the farthest coupled point
     # ends, (E,)
     end_node: np.ndarray  # index of the line's end node
     # points, (P,)
@@ -139,7 +140,8 @@ def build(scene, segments=None):
         **rows,
         bed_level=-float(env.depth),
         current=np.array(env.current, dtype=float),
-        gravity=float(env.gravity),
+        natural_speed=natural_speed(scene),
+        reach=max((np.linalg.norm(point.position) for point in scene.points if point.kind == COUPLED), default=0.0),
         end_node=np.array(end_node, dtype=np.int64),
         point_node=np.array(point_nodes, dtype=np.int64),
         point_kind=kinds,
@@ -155,6 +157,14 @@ def build(scene, segments=None):
 
 
 _KINDS = {FIXED: POINT_FIXED, COUPLED: POINT_COUPLED}
+
+
+def natural_speed(scene):
+    """Free fall through the mooring's height, the current, and 5 % of strain let loose, m/s."""
+    env = scene.environment
+    fall = np.sqrt(2.0 * env.gravity * (env.depth + max(line.length for line in scene.lines)))
+    recoil = 0.05 * max(np.sqrt(line.type.stiffness / line.type.mass) for line in scene.lines)
+    return float(fall + np.linalg.norm(env.current) + recoil)
 
 
 def internal_damping(line_type, segment_length):
@@ -216,12 +226,14 @@ def _place_point(rows, point, node, env):
 def new_state(model, end_point):
     """State at rest, everything at the origin; `statics.settle` places it."""
     n = model.mass.size
+    position = np.zeros((3, n))
+    position[2] = 2.0 * model.bed_level - 100.0  # dummies stay where they are, far below the surface
     return State(
         clock=np.zeros(1),
         pose=np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]),
         twist=np.zeros(6),
         acceleration_of_platform=np.zeros(6),
-        position=np.zeros((3, n)),
+        position=position,
         velocity=np.zeros((3, n)),
         acceleration=np.zeros((3, n)),
         force=np.zeros((3, n)),
