@@ -37,7 +37,7 @@ def wet_shares(model, state, scratch):
         shallow = min(-z[i], -z[i + 1]) - radius
         part[i + 1] = (max(deep, 0.0) - max(shallow, 0.0)) / max(deep - shallow, 1e-9)
     for i in range(model.size):
-        wet[i] = share_left[i] * part[i] + share_right[i] * part[i + 1]
+        wet[i] = 1.0 + share_left[i] * (part[i] - 1.0) + share_right[i] * (part[i + 1] - 1.0)
     for p in range(model.point_node.size):
         node = model.point_node[p]
         if model.point_diameter[p] > 0.0:
