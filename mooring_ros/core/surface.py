@@ -40,6 +40,8 @@ def wet_shares(model, state, scratch):
         wet[i] = 1.0 + share_left[i] * (part[i] - 1.0) + share_right[i] * (part[i + 1] - 1.0)
     for p in range(model.point_node.size):
         node = model.point_node[p]
+        if node >= model.size:
+            continue
         if model.point_diameter[p] > 0.0:
             under = min(max(0.5 - z[node] / model.point_diameter[p], 0.0), 1.0)
             wet[node] = under * under * (3.0 - 2.0 * under)
