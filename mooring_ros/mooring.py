@@ -130,7 +130,7 @@ class Mooring:
         if not (np.isfinite(times).all() and (np.diff(times) > 0.0).all()):
             raise ValueError("times must be finite and grow from sample to sample")
         poses, twists = _checked_poses(poses), np.ascontiguousarray(_checked_twists(twists))
-        readings = new_readings(self._model, times.size)
+        readings, done = new_readings(self._model, times.size), 0
         try:
             done = self._run(times, poses, np.ascontiguousarray(twists), readings)
         except MooringError as error:
@@ -272,17 +272,20 @@ class Mooring:
         result = self._statics.solve(state, self._scratch)
         if warm and not result.converged:
             return self._static_state(pose)
+        best, best_state = result, _copy(state)
         for _ in range(SWINGS):
-            if result.converged or not self._swing(state):
+            if best.residual <= self._statics.acceptable or not self._swing(state):
                 break
             result = self._statics.solve(state, self._scratch)
-        if not result.converged and result.residual <= self._statics.acceptable:
-            result = replace(result, tolerance=self._statics.acceptable, converged=True)
-        if result.converged:
-            return state, result
+            if result.residual < best.residual:
+                best, best_state = result, _copy(state)
+        if not best.converged and best.residual <= self._statics.acceptable:
+            best = replace(best, tolerance=self._statics.acceptable, converged=True)
+        if best.converged:
+            return best_state, best
         raise MooringError(
-            f"the statics did not converge in {result.iterations} iterations: "
-            f"{result.residual:.3g} N out of balance, {result.tolerance:.3g} N asked for"
+            f"the statics did not converge in {best.iterations} iterations: "
+            f"{best.residual:.3g} N out of balance, {best.tolerance:.3g} N asked for"
         )
 
     def _swing(self, state):
@@ -307,7 +310,8 @@ class Mooring:
         if status != explicit.DONE:
             cause = {
                 explicit.RUNAWAY: "ran away (speeds that nothing here can cause, or tensions that collapse) even with a step of "
-                f"{self.step_limit.dt / 2**explicit.HALVINGS:.3g} s",
+                f"{self.step_limit.dt / explicit.FINEST:.3g} s",
+                explicit.TOO_LONG: f"needs more than {explicit.MOST_STEPS:g} steps of {self.step_limit.dt:.3g} s; expected shorter intervals",
                 explicit.TOO_FAST: f"moves the platform faster than {FASTEST:g} m/s",
             }[status]
             error = MooringError(f"the step to t = {times[done]:.6g} s {cause}; the mooring stands at t = {self.time:.6g} s")
@@ -322,11 +326,11 @@ class Mooring:
             except MooringError as failure:
                 failure.samples = sample
                 raise
-            state.clock[0] = times[sample]
-            state.twist[:] = twists[sample]
-            _assign(self._state, state)
             self._report[:] = result.iterations, 1.0, 0.0, times[sample] - self.time
+            state.clock[0] = times[sample]
+            _assign(self._state, state)
             observe(self._model, self._state, sample, readings)
+            self._state.twist[:] = twists[sample]  # not before: it would bring inertia into the readings
         return times.size
 
     def _need_settled(self):

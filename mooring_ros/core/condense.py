@@ -4,8 +4,6 @@ With the blocks of `tangent.py` the interior rows of a line read below x_{i-1} +
 eliminated from end A towards end B as x_i = g_i - c_i x_{i+1} - a_i x_A.
 """
 
-import numpy as np
-
 from .cache import kernel, stage
 
 

@@ -12,10 +12,11 @@ from .schemes import LEAPFROG
 from .seabed import set_bed_relief
 from .surface import all_wet, reaches_above
 
-DONE, RUNAWAY, TOO_FAST = 0, 1, 2  # status codes
+DONE, RUNAWAY, TOO_FAST, TOO_LONG = 0, 1, 2, 3  # status codes
 
 CHUNK = 64  # largest steps between two looks at the guard
-HALVINGS = 6  # of the step, before an interval is given up
+MOST_STEPS = 1e7  # largest steps in an interval: some minutes of work
+FINEST = 64.0  # times finer than the largest step a chunk is tried, before its interval is given up
 JUMP = 0.1  # of the tension and the line's weight: the change of a tension, from Euler steps to their mean, that is too much
 MOST_REFINED = 8.0  # times finer steps for that cause; a jump that stays is one of the line, not of the scheme
 REFINED_STEPS = 40.0  # largest steps for which a finer step is kept
@@ -134,8 +135,8 @@ def advance(model, state, scratch, table, time, pose, twist, report):
     """Advance `state` to `time` (s), where the platform has `pose` (7,) and `twist` (6,). Returns a status code.
 
     `table`: from `schemes.step_table`. The interval is taken in chunks. One whose tensions come out uneven is taken again from its start
-    with half the step, down to one in `MOST_REFINED`, and the finer step is kept for a while; one that runs away or tears up to `HALVINGS` times,
-    and is then refused: the state is as it was. `report` (4,) gets evaluations, steps, chunks taken again and the shortest step (s).
+    with half the step, down to one in `MOST_REFINED`, or in `FINEST` where they collapse, and the finer step is kept for a while. One that
+    runs away even in the finest steps is refused: the state is as it was. `report` (4,) gets evaluations, steps, chunks taken again and the shortest step (s).
     """
     duration = time - state.clock[0]
     start_motion(state.pose, state.twist, pose, twist, duration, scratch.motion)
@@ -143,11 +144,13 @@ def advance(model, state, scratch, table, time, pose, twist, report):
     if not ends <= FASTEST:
         return TOO_FAST
     fastest = IMPLAUSIBLE * (model.natural_speed + ends)
-    largest = table[0, 1]
+    largest, smallest = table[0, 1], table[0, 1]
     for row in range(table.shape[0]):
-        largest = max(largest, table[row, 1])
+        largest, smallest = max(largest, table[row, 1]), min(smallest, table[row, 1])
     settings = state.settings
     previous = (settings[0], settings[1], settings[2], settings[3], settings[4])
+    if not duration <= MOST_STEPS * largest:
+        return TOO_LONG
     chunks = int(np.ceil(duration / (CHUNK * largest)))
     span = duration / chunks
     evaluations_taken, steps_taken, retries, shortest = 0.0, 0, 0, duration
@@ -155,24 +158,23 @@ def advance(model, state, scratch, table, time, pose, twist, report):
         start = chunk / chunks
         source = min(chunk, 1)
         save(model, state, scratch.saved[source])
-        refined = settings[3]
-        wild = False
-        for attempt in range(HALVINGS + 1):
-            if attempt > 0:
-                recall(model, state, scratch.saved[source])
-                refined *= 2.0
-                retries += 1
+        refined, again = settings[3], False
+        while True:
             row, steps = choose_step(table, span, refined)
             h = span / steps
             adapt(model, state, h / table[row, 2])
             look_at_surface(model, state, SURFACE_MARGIN + span * LIKELY_SPEED)
-            if attempt > 0:
+            if again:
                 evaluate_again(model, state, scratch)
             tensions = take_steps(model, state, scratch, int(table[row, 0]), h, steps, start, 1.0 / (steps * chunks))
             evaluations_taken += steps * table[row, 0]
-            wild = runaway(model, state, fastest) or tensions == TORN
-            if not wild and not (tensions == UNEVEN and refined < MOST_REFINED):
+            wild = runaway(model, state, fastest)
+            again = refined < FINEST if wild or tensions == TORN else tensions == UNEVEN and refined < MOST_REFINED
+            if not again:
                 break
+            recall(model, state, scratch.saved[source])
+            refined *= 2.0
+            retries += 1
         if wild:
             recall(model, state, scratch.saved[0])
             settings[0], settings[1], settings[2], settings[3], settings[4] = previous
@@ -190,8 +192,9 @@ def advance(model, state, scratch, table, time, pose, twist, report):
             settings[3], settings[4] = 0.5 * refined, now + REFINED_STEPS * largest
     for i in range(7):
         state.pose[i] = pose[i]
+    share = min(duration / smallest, 1.0)  # samples closer than a step share one mean: their differences are noise
     for i in range(6):
-        state.acceleration_of_platform[i] = (twist[i] - state.twist[i]) / duration
+        state.acceleration_of_platform[i] += share * ((twist[i] - state.twist[i]) / duration - state.acceleration_of_platform[i])
         state.twist[i] = twist[i]
     state.clock[0] = time
     report[0], report[1], report[2], report[3] = evaluations_taken, steps_taken, retries, shortest

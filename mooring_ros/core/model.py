@@ -71,7 +71,7 @@ class State(NamedTuple):
     clock: np.ndarray  # (1,), s
     pose: np.ndarray  # (7,), m and quaternion x, y, z, w
     twist: np.ndarray  # (6,), m/s, rad/s, world
-    acceleration_of_platform: np.ndarray  # (6,), m/s^2, rad/s^2, world: mean over the last interval
+    acceleration_of_platform: np.ndarray  # (6,), m/s^2, rad/s^2, world: mean over the last interval, or over a step where that is longer
     position: np.ndarray  # (3, n), m
     velocity: np.ndarray  # (3, n), m/s
     acceleration: np.ndarray  # (3, n), m/s^2

@@ -4,8 +4,6 @@ The node of a point and the end nodes of its lines share one motion. Fixed and c
 of the forces on all its nodes over the sum of their inertia.
 """
 
-import numpy as np
-
 from .cache import stage
 from .model import LOOSE, POINT_COUPLED, POINT_FREE
 from .platform import cross, platform_at, rotate, turned

@@ -58,7 +58,8 @@ def _reaction(model, state, node, a):
     """Force (N) of a held node on what holds it: all forces on the node less its inertia at acceleration a (m/s^2)."""
     t = state.tangent
     tx, ty, tz = t[0, node] + t[0, node + 1], t[1, node] + t[1, node + 1], t[2, node] + t[2, node + 1]
-    normal, axial = state.inertia_normal[node], state.inertia_axial[node]
+    normal = model.mass[node] + state.wet[node] * model.added_normal[node]
+    axial = model.mass[node] + state.wet[node] * model.added_axial[node]
     along = (axial - normal) * (tx * a[0] + ty * a[1] + tz * a[2]) / max(tx * tx + ty * ty + tz * tz, TINY)
     return (
         state.force[0, node] - normal * a[0] - along * tx,

@@ -22,6 +22,7 @@ DOWNHILL_ITERATIONS = 150
 SOFT_STRAINS, SOFT_TOLERANCE = (0.1, 0.01), 1e-4  # under the line's weight; of the weight
 LEAST_DAMPING = 1e-13
 SMALLEST_SHARE = 0.01  # of a step
+LONGEST_MOVE = 0.3  # of the longest line's length, in one step
 STRAIN_SCALE = 10.0  # a strain of 10 % counts like a force of the line's weight
 
 
@@ -132,7 +133,7 @@ class StaticSolver:
             if residual <= goal:
                 return iteration - 1
             stretch_linearly(self.model, state, tension)
-            step = self._step(state, scratch, damping, free)
+            step = self._step(state, damping)
             if step is None:
                 return iteration
             self._shorten(step)
@@ -164,13 +165,8 @@ class StaticSolver:
         return float(np.hypot(np.sqrt((force**2).sum()), STRAIN_SCALE * missed))
 
     def _shorten(self, step):
-        """Keep the longest move below a share of the lines' length; True when it was not."""
-        longest = np.sqrt((step**2).sum(axis=0).max())
-        reach = 0.3 * max(self.lengths)
-        if longest <= reach:
-            return False
-        step *= reach / longest
-        return True
+        """Keep the longest move below a share of the lines' length."""
+        step *= min(LONGEST_MOVE * max(self.lengths) / max(np.sqrt((step**2).sum(axis=0).max()), 1e-300), 1.0)
 
     def _by_softening(self, state, scratch, free, goal, best):
         """Downhill with lines soft enough to move far, then stiffened stage by stage: each finds the next one's shape and tensions."""
@@ -204,7 +200,7 @@ class StaticSolver:
         for iteration in range(1, DOWNHILL_ITERATIONS + 1):
             if best.residual <= goal:
                 return iteration - 1
-            step = self._step(state, scratch, damping, free)
+            step = self._step(state, damping)
             if step is None:
                 damping = max(damping, 1e-10) * 100.0
                 continue
@@ -227,7 +223,7 @@ class StaticSolver:
     def _residual(self, state, free):
         return float(np.sqrt((_gathered(self.model, state, state.force)[:, free] ** 2).sum(axis=0).max(initial=0.0)))
 
-    def _step(self, state, scratch, damping, free):
+    def _step(self, state, damping):
         """Newton step (3, n) of the nodes, or None when the system is singular."""
         model = self.model
         fill_tangent(model, state, self.diagonal, self.above, self.below)

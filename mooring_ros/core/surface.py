@@ -1,7 +1,5 @@
 """The free surface at z = 0: only the wet part of a segment or point feels water."""
 
-import numpy as np
-
 from .cache import stage
 
 
