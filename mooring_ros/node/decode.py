@@ -3,6 +3,7 @@ import struct
 
 from geometry_msgs.msg import PoseStamped, TwistStamped
 from nav_msgs.msg import Odometry
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.serialization import deserialize_message, serialize_message
 
 from mooring_ros.motion import Sample
@@ -36,7 +37,7 @@ def _guarded(decode, data, message_type):
         if data[:2] != _LITTLE_ENDIAN:
             data = serialize_message(deserialize_message(data, message_type))
         return decode(data)
-    except (struct.error, UnicodeDecodeError) as error:
+    except (struct.error, UnicodeDecodeError, rclpy_implementation.RMWError) as error:
         raise ValueError(f"{len(data)} bytes are no {message_type.__name__}: {error}") from error
 
 

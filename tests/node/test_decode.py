@@ -47,3 +47,9 @@ def test_pose_and_twist_are_read_for_any_frame_name(frame):
 def test_bytes_that_are_cut_off_are_refused():
     with pytest.raises(ValueError, match="no Odometry"):
         decode.odometry(serialize_message(Odometry())[:200])
+
+
+@pytest.mark.parametrize("data", [b"", b"\x00", b"\x00\x00\x00\x00" + b"\xff" * 50], ids=["none", "one", "big-endian nonsense"])
+def test_bytes_of_another_encoding_that_make_no_message_are_refused(data):
+    with pytest.raises(ValueError, match="no Odometry"):
+        decode.odometry(data)
