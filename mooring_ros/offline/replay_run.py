@@ -56,6 +56,12 @@ def run_schedule(mooring, actions, stamps, time_factor):
             mooring.step(action.time, action.pose, action.twist)
             record = schedule.encode_step(action.time, action.pose, action.twist)
         else:
-            mooring.release(mooring.line_names[action.line])
+            mooring.release(_line_name(mooring, action.line))
             record = schedule.encode_release(action.time, action.line)
         yield Done(action.kind, stamp, offset + action.time / time_factor, record, action.pose, action.twist)
+
+
+def _line_name(mooring, index):
+    if index >= len(mooring.line_names):
+        raise ValueError(f"the step schedule releases line {index + 1} of the scene, expected one of its {len(mooring.line_names)}")
+    return mooring.line_names[index]

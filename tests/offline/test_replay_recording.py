@@ -98,3 +98,10 @@ def test_a_difference_in_the_last_bit_is_not_identical():
     found.add(1, np.array([np.nextafter(1.0, 2.0)]), np.array([2.0]))
     found.add(2, np.array([1.0]), np.array([2.0]))
     assert (found.same, found.total) == (1, 3)
+
+
+def test_a_release_of_a_line_that_the_scene_does_not_have_is_bad_input(scene, mooring, tmp_path):
+    records = [schedule.encode_settle(0.0, POSES[0]), schedule.encode_release(0.0, 7)]
+    record(tmp_path / "run.mcap", scene, {"fidelity": "dynamic", "dt": 0.0, "segments": 0}, records, [10**9, 10**9])
+    outcome = mooring("replay", scene, tmp_path / "run.mcap", "-o", tmp_path / "out.mcap")
+    assert outcome.status == 2 and "releases line 8" in outcome.err and "Traceback" not in outcome.err
