@@ -73,15 +73,14 @@ class OnlineTwist:
         self._samples = (older + [(time, tuple(pose))])[-3:]
         if not older:
             return (0.0,) * 6
-        near = self._difference(older[-1], time, pose)
+        near = self._difference(older[-1][1], pose)
         if len(older) == 1:
             return tuple(change / (time - older[-1][0]) for change in near)
         h1, h2 = time - older[-1][0], time - older[-2][0]
-        far = self._difference(older[-2], time, pose)
+        far = self._difference(older[-2][1], pose)
         near_weight, far_weight = h2 / (h1 * (h2 - h1)), -h1 / (h2 * (h2 - h1))
         return tuple(near_weight * a + far_weight * b for a, b in zip(near, far))
 
     @staticmethod
-    def _difference(sample, time, pose):
-        _, old = sample
+    def _difference(old, pose):
         return (pose[0] - old[0], pose[1] - old[1], pose[2] - old[2], *rotation.turn_between(old[3:], pose[3:]))
