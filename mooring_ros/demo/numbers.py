@@ -2,16 +2,15 @@
 
 import numpy as np
 
+from mooring_ros.offline.angles import roll_pitch_yaw
+
 MOTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 
 
 def motions(poses):
     """(n, 6) of poses (n, 7): surge, sway, heave in m; roll, pitch, yaw about the fixed axes in degrees."""
-    x, y, z, w = np.asarray(poses, float)[:, 3:7].T
-    roll = np.arctan2(2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y))
-    pitch = np.arcsin(np.clip(2.0 * (w * y - z * x), -1.0, 1.0))
-    yaw = np.arctan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
-    return np.column_stack([np.asarray(poses, float)[:, :3], np.degrees(np.stack([roll, pitch, yaw], axis=1))])
+    poses = np.asarray(poses, float)
+    return np.column_stack([poses[:, :3], np.degrees(roll_pitch_yaw(poses[:, 3:7]))])
 
 
 def tension_rows(answers):

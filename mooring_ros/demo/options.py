@@ -4,7 +4,7 @@ import argparse
 import math
 
 from mooring_ros.demo.waves import SeaState
-from mooring_ros.offline.arguments import positive
+from mooring_ros.offline.arguments import finite, positive
 
 HEADING = 20.0  # degrees; off the axes of symmetry, so that no motion stays at rest
 
@@ -32,17 +32,6 @@ def sea_state(options):
     return SeaState(
         height=options.wave_height, period=options.wave_period, heading=math.radians(options.wave_heading), seed=options.seed, ramp=options.ramp
     )
-
-
-def finite(text):
-    """A finite number; for argparse."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not math.isfinite(value):
-        raise argparse.ArgumentTypeError(f"{text!r}: expected a finite number")
-    return value
 
 
 def not_negative(text):

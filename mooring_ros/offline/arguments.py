@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 
+from .angles import quaternion_from_degrees
 from .console import reading
 
 
@@ -30,9 +31,20 @@ def solver(text):
     return _one_of(text, SOLVERS)
 
 
+def finite(text):
+    """A finite number; for argparse."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f"{text!r}: expected a finite number")
+    return value
+
+
 def positive(text):
     """A positive, finite number; for argparse."""
-    value = _number(text)
+    value = finite(text)
     if not value > 0.0:
         raise argparse.ArgumentTypeError(f"{text!r}: expected a positive number")
     return value
@@ -54,21 +66,8 @@ def pose(text):
     parts = text.split(",")
     if len(parts) != 6:
         raise argparse.ArgumentTypeError(f"{text!r}: expected six numbers X,Y,Z,ROLL,PITCH,YAW (m, degrees), found {len(parts)}")
-    numbers = [_number(part) for part in parts]
+    numbers = [finite(part) for part in parts]
     return np.concatenate([numbers[:3], quaternion_from_degrees(*numbers[3:])])
-
-
-def quaternion_from_degrees(roll, pitch, yaw):
-    """Unit quaternion (4,) x, y, z, w of R = Rz(yaw) Ry(pitch) Rx(roll), angles in degrees."""
-    (cr, sr), (cp, sp), (cy, sy) = (_half_angle(angle) for angle in (roll, pitch, yaw))
-    return np.array(
-        [
-            cy * cp * sr - sy * sp * cr,
-            cy * sp * cr + sy * cp * sr,
-            sy * cp * cr - cy * sp * sr,
-            cy * cp * cr + sy * sp * sr,
-        ]
-    )
 
 
 def load_mooring(scene, fidelity=None, solver=None, dt=None, segments=None):
@@ -84,18 +83,3 @@ def _one_of(text, built):
     if text not in built:
         raise argparse.ArgumentTypeError(f"{text!r} is not there, expected one of {', '.join(built)}")
     return text
-
-
-def _number(text):
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not math.isfinite(value):
-        raise argparse.ArgumentTypeError(f"{text!r}: expected a finite number")
-    return value
-
-
-def _half_angle(degrees):
-    half = math.radians(degrees) / 2.0
-    return math.cos(half), math.sin(half)

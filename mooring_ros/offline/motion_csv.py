@@ -7,7 +7,7 @@ import numpy as np
 from mooring_ros.motion.gate import UNIT_TOLERANCE
 from mooring_ros.motion.velocity import twist_from_poses
 
-from .arguments import quaternion_from_degrees
+from .angles import quaternion_from_degrees
 from .motion_file import Motion
 from .number_table import read_table
 

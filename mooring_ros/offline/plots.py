@@ -9,6 +9,8 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
+from .angles import roll_pitch_yaw
+
 # Distinguishable without colour vision, and in print.
 COLOURS = ("#0b6fa4", "#d1651a", "#2a8c5a", "#8a4fa8", "#b3323f", "#6b6f1d", "#4a5a6a", "#c7418f")
 _WIDTH = 9.6  # inches
@@ -22,7 +24,7 @@ _MOST_POINTS = 3000  # a curve holds no more: beyond, the extremes of each stret
 def motion_figure(times, poses):
     """The six motions over time. times (n,) s; poses (n, 7): x, y, z (m) and quaternion x, y, z, w."""
     times, poses = np.asarray(times, float), np.asarray(poses, float)
-    angles = np.degrees(np.unwrap(_roll_pitch_yaw(poses[:, 3:7]), axis=0))
+    angles = np.degrees(np.unwrap(roll_pitch_yaw(poses[:, 3:7]), axis=0))
     fig = _figure(3.9)
     axes = fig.subplots(3, 2, sharex=True)
     for row, (name, quantity) in enumerate((("surge", poses[:, 0]), ("sway", poses[:, 1]), ("heave", poses[:, 2]))):
@@ -233,12 +235,3 @@ def _band(frequency, amplitude):
     if power[-1] <= 0.0:
         return frequency[-1]
     return min(frequency[-1], 2.0 * frequency[np.searchsorted(power, 0.995 * power[-1])])
-
-
-def _roll_pitch_yaw(quaternions):
-    """Fixed-axis roll, pitch, yaw (n, 3) rad of quaternions (n, 4) x, y, z, w."""
-    x, y, z, w = (quaternions / np.linalg.norm(quaternions, axis=1, keepdims=True)).T
-    roll = np.arctan2(2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y))
-    pitch = np.arcsin(np.clip(2.0 * (w * y - z * x), -1.0, 1.0))
-    yaw = np.arctan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
-    return np.stack([roll, pitch, yaw], axis=1)

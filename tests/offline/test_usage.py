@@ -7,7 +7,8 @@ import sys
 import numpy as np
 import pytest
 
-from mooring_ros.offline.arguments import pose, quaternion_from_degrees
+from mooring_ros.offline.angles import quaternion_from_degrees
+from mooring_ros.offline.arguments import pose
 
 HISTORY = "time,line1.fairlead_tension\n0,1\n1,2\n2,1\n"
 
