@@ -20,6 +20,7 @@ from .scene import Scene, load_scene
 FIDELITIES = ("dynamic", "quasi_static")
 SOLVERS = ("auto", "explicit")
 QUATERNION_TOLERANCE = 1e-3
+MOST_SEGMENTS = 100_000  # of a line
 SWINGS, SWING_TIME = 30, 20.0  # s: how often and how long lines may swing where the statics do not converge at once
 
 
@@ -65,10 +66,10 @@ class Mooring:
             raise ValueError(f"fidelity {fidelity!r} is not built; expected one of {', '.join(FIDELITIES)}")
         if solver not in SOLVERS:
             raise ValueError(f"solver {solver!r} is not built; expected one of {', '.join(SOLVERS)}")
-        if dt is not None and not (np.isfinite(dt) and dt > 0.0):
+        if dt is not None and not 0.0 < float(_shaped(dt, (), "dt", "seconds")) < np.inf:
             raise ValueError(f"dt is {dt!r}; expected a positive number of seconds, or None")
-        if segments is not None and (int(segments) != segments or segments < 1):
-            raise ValueError(f"segments is {segments!r}; expected a whole number of at least 1, or None")
+        if segments is not None and not float(_shaped(segments, (), "segments", "a whole number")) in range(1, MOST_SEGMENTS + 1):
+            raise ValueError(f"segments is {segments!r}; expected a whole number from 1 to {MOST_SEGMENTS}, or None")
         self.scene = scene if isinstance(scene, Scene) else load_scene(Path(scene))
         self.fidelity = fidelity
         self.solver = "explicit"
@@ -92,6 +93,7 @@ class Mooring:
     def settle(self, pose, time=0.0):
         """Static equilibrium with the platform at rest at `pose` (7,), from a cold start; the clock stands at `time` (s) after it."""
         pose = _checked_poses(_shaped(pose, (7,), "pose", "x, y, z, qx, qy, qz, qw"))
+        time = float(_shaped(time, (), "time", "seconds"))
         if not np.isfinite(time):
             raise ValueError(f"time is {time!r}; expected a finite number of seconds")
         state, result = self._static_state(pose)
@@ -119,8 +121,8 @@ class Mooring:
 
         When a step cannot be completed, MooringError is raised with the attribute `history` holding the samples done before it.
         """
-        times = np.asarray(times, dtype=float).reshape(-1)
-        poses, twists = np.asarray(poses, dtype=float), np.asarray(twists, dtype=float)
+        times = _numbers(times, "times").reshape(-1)
+        poses, twists = _numbers(poses, "poses"), _numbers(twists, "twists")
         if poses.shape != (times.size, 7) or twists.shape != (times.size, 6):
             raise ValueError(f"times {times.shape}, poses {poses.shape}, twists {twists.shape}; expected (k,), (k, 7), (k, 6)")
         if times.size == 0:
@@ -338,11 +340,11 @@ class Mooring:
             raise ValueError("the mooring has not been settled; call settle(pose) first")
 
     def _checked_time(self, t):
-        t = float(t)
+        t = float(_shaped(t, (), "t", "seconds"))
         if not np.isfinite(t):
             raise ValueError(f"t is {t!r}; expected a finite number of seconds")
         if not t > self._state.clock[0]:
-            raise ValueError(f"t is {t!r} s; expected a time after the present one, {self._state.clock[0]!r} s")
+            raise ValueError(f"t is {t!r} s; expected a time after the present one, {self.time!r} s")
         return t
 
     def _line(self, name):
@@ -370,8 +372,15 @@ class Mooring:
         )
 
 
+def _numbers(values, name):
+    try:
+        return np.asarray(values, dtype=float)
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"{name} is {values!r}; expected numbers") from error
+
+
 def _shaped(values, shape, name, meaning):
-    values = np.asarray(values, dtype=float)
+    values = _numbers(values, name)
     if values.shape != shape:
         raise ValueError(f"{name} has shape {values.shape}; expected {shape}: {meaning}")
     return values

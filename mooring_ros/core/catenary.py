@@ -4,6 +4,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 NEARLY = 1e-6
+NO_SCALE = 1e-9  # of the length: H/w of a line that hangs straight down
 
 
 def guess(end_a, end_b, length, nodes, weight, stiffness, level):
@@ -59,15 +60,14 @@ def _laid(plan, heights, length, along, weight):
         legs = hanging(scale)
         return (scale * np.arcsinh(legs / scale)).sum() + length - legs.sum()
 
-    slack = length - heights.sum() >= plan
-    if slack:  # legs straight down, the rest heaped evenly between
+    if covered(NO_SCALE * length) >= plan:  # slack: legs straight down, the rest heaped evenly between
         scale, legs = 0.0, heights
         spans = np.zeros(2)
     else:
         longest = 1.0
         while covered(longest) < plan and hanging(longest).sum() < length:
             longest *= 2.0
-        scale = brentq(lambda scale: covered(scale) - plan, 1e-9 * length, longest) if covered(longest) > plan else longest
+        scale = brentq(lambda scale: covered(scale) - plan, NO_SCALE * length, longest) if covered(longest) > plan else longest
         legs = hanging(scale)
         spans = scale * np.arcsinh(legs / scale)
     on_bed = max(length - legs.sum(), NEARLY * length)

@@ -163,7 +163,7 @@ def advance(model, state, scratch, table, time, pose, twist, report):
             row, steps = choose_step(table, span, refined)
             h = span / steps
             adapt(model, state, h / table[row, 2])
-            look_at_surface(model, state, SURFACE_MARGIN + span * LIKELY_SPEED)
+            look_at_surface(model, state, SURFACE_MARGIN + span * max(LIKELY_SPEED, ends))
             if again:
                 evaluate_again(model, state, scratch)
             tensions = take_steps(model, state, scratch, int(table[row, 0]), h, steps, start, 1.0 / (steps * chunks))

@@ -5,7 +5,7 @@ of the forces on all its nodes over the sum of their inertia.
 """
 
 from .cache import stage
-from .model import LOOSE, POINT_COUPLED, POINT_FREE
+from .model import LOOSE, POINT_FREE
 from .platform import cross, platform_at, rotate, turned
 from .tension import TINY
 
@@ -66,18 +66,19 @@ def carry_ends(model, state):
 
 @stage
 def add_inertia(model, state, node, matrix):
-    """Add the node's inertia matrix m I + (m_a - m) t t' (3 x 3, relieved vertically in the bed) to `matrix` (6,): xx, yy, zz, xy, xz, yz."""
+    """`matrix` (6,): xx, yy, zz, xy, xz, yz, plus the node's inertia m I + (m_a - m) t t' and what its contact with the bed takes in a step."""
     t = state.tangent
     tx, ty, tz = t[0, node] + t[0, node + 1], t[1, node] + t[1, node + 1], t[2, node] + t[2, node + 1]
     normal, axial = state.inertia_normal[node], state.inertia_axial[node]
     surplus = (axial - normal) / max(tx * tx + ty * ty + tz * tz, TINY)
-    relieved = 1.0
+    contact = 0.0
     if state.position[2, node] < model.bed_level:
-        relieved = 1.0 / max(state.bed_relief[node], 1e-12)
+        step = state.settings[1]
+        contact = step * (model.bed_damping[node] + step * model.bed_stiffness[node])
     return (
         matrix[0] + normal + surplus * tx * tx,
         matrix[1] + normal + surplus * ty * ty,
-        matrix[2] + (normal + surplus * tz * tz) * relieved,
+        matrix[2] + normal + surplus * tz * tz + contact,
         matrix[3] + surplus * tx * ty,
         matrix[4] + surplus * tx * tz,
         matrix[5] + surplus * ty * tz,

@@ -20,8 +20,9 @@ def bed_contact(model, state, step):
 
 @stage
 def set_bed_relief(model, state, step):
-    """Factors m / (m + c step + k step^2) on the vertical acceleration of nodes in contact (see `bed_contact`)."""
-    relief, mass = state.bed_relief, model.mass
+    """Factors m / (m + c step + k step^2) on the vertical acceleration of nodes in contact (see `bed_contact`), added mass included."""
+    relief, mass, added = state.bed_relief, model.mass, model.added_normal
     stiffness, damping = model.bed_stiffness, model.bed_damping
     for i in range(model.size):
-        relief[i] = mass[i] / max(mass[i] + step * (damping[i] + step * stiffness[i]), 1e-300)
+        inertia = mass[i] + added[i]
+        relief[i] = inertia / max(inertia + step * (damping[i] + step * stiffness[i]), 1e-300)

@@ -311,6 +311,8 @@ class StaticSolver:
     def platform_stiffness(self, state, scratch):
         """(6, 6) minus the change of the wrench with the pose at an equilibrium in `state`; rotations about the world axes."""
         model = self.model
+        if not model.coupled_points.size:
+            return np.zeros((6, 6))
         _evaluate_at_rest(model, state, scratch)
         fill_tangent(model, state, self.diagonal, self.above, self.below)
         for k in range(3):
