@@ -6,12 +6,11 @@ from typing import Any
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor, SetParametersResult
 from rclpy.parameter import Parameter
 
+from mooring_ros.mooring import FIDELITIES, SOLVERS
 from mooring_ros.motion.frames import CONVENTIONS, TWIST_FRAMES, WRENCH_FRAMES
 from mooring_ros.node.timing import MODES
 
 INPUTS = ("odometry", "pose_twist", "pose")
-FIDELITIES = ("linear", "quasi_static", "dynamic")
-SOLVERS = ("explicit", "implicit", "auto")
 
 _HUGE, _TINY = 1e18, 1e-6
 
