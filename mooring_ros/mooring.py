@@ -6,20 +6,22 @@ from pathlib import Path
 
 import numpy as np
 
+from .arguments import checked_poses, checked_twists, numbers, shaped
 from .core import explicit
 from .core.forces import evaluate_once
 from .core.guard import FASTEST
+from .core.linear import LinearResponse, linearise
 from .core.model import LOOSE, State, build, new_scratch, new_state
 from .core.readings import new_readings, observe
 from .core.schemes import step_table
 from .core.stability import step_limit
 from .core.statics import StaticSolver
 from .errors import MooringError
+from .history import History, with_moments
 from .scene import Scene, load_scene
 
-FIDELITIES = ("dynamic", "quasi_static")
+FIDELITIES = ("dynamic", "quasi_static", "linear")
 SOLVERS = ("auto", "explicit")
-QUATERNION_TOLERANCE = 1e-3
 MOST_SEGMENTS = 100_000  # of a line
 SWINGS, SWING_TIME = 30, 20.0  # s: how often and how long lines may swing where the statics do not converge at once
 
@@ -32,28 +34,15 @@ class Snapshot:
     state: State
     readings: tuple
     settled: bool
-
-
-@dataclass(frozen=True)
-class History:
-    """Readings of many samples, one row each; k samples, world frame."""
-
-    time: np.ndarray  # (k,) s
-    wrench: np.ndarray  # (k, 6) N, N m
-    anchor_tension: np.ndarray  # (k, lines) N
-    fairlead_tension: np.ndarray  # (k, lines) N
-    anchor_end_force: np.ndarray  # (k, lines, 3) N
-    fairlead_end_force: np.ndarray  # (k, lines, 3) N
-    stretched_length: np.ndarray  # (k, lines) m
-    length_rate: np.ndarray  # (k, lines) m/s
-    coupled_wrenches: np.ndarray  # (k, coupled points, 6) N, N m
+    linear: LinearResponse | None
 
 
 class Mooring:
     """Mooring lines between the ground and a moving platform.
 
     scene: path of a MoorDyn v2 file, or a `Scene`. fidelity: "dynamic", or "quasi_static": equilibrium at every sample, without inertia, damping
-    and drag of the motion (dt has no meaning then). solver: "auto" or "explicit". dt: largest step of the solver (s),
+    and drag of the motion, or "linear": the 6 x 6 stiffness, and tensions to first order, about the last settled pose (dt has no meaning in
+    these two). solver: "auto" or "explicit". dt: largest step of the solver (s),
     None for the largest that is stable; a dt beyond that is not taken. segments: segments of every line, None for the file's.
 
     pose is (7,): x, y, z (m) and a unit quaternion x, y, z, w; twist is (6,): velocity (m/s) of the reference point and angular velocity
@@ -66,9 +55,9 @@ class Mooring:
             raise ValueError(f"fidelity {fidelity!r} is not built; expected one of {', '.join(FIDELITIES)}")
         if solver not in SOLVERS:
             raise ValueError(f"solver {solver!r} is not built; expected one of {', '.join(SOLVERS)}")
-        if dt is not None and not 0.0 < float(_shaped(dt, (), "dt", "seconds")) < np.inf:
+        if dt is not None and not 0.0 < float(shaped(dt, (), "dt", "seconds")) < np.inf:
             raise ValueError(f"dt is {dt!r}; expected a positive number of seconds, or None")
-        if segments is not None and not float(_shaped(segments, (), "segments", "a whole number")) in range(1, MOST_SEGMENTS + 1):
+        if segments is not None and not float(shaped(segments, (), "segments", "a whole number")) in range(1, MOST_SEGMENTS + 1):
             raise ValueError(f"segments is {segments!r}; expected a whole number from 1 to {MOST_SEGMENTS}, or None")
         self.scene = scene if isinstance(scene, Scene) else load_scene(Path(scene))
         self.fidelity = fidelity
@@ -84,6 +73,7 @@ class Mooring:
         self._report = np.zeros(4)
         self._time, self._pose, self._twist = np.zeros(1), np.zeros((1, 7)), np.zeros((1, 6))
         self._settled = False
+        self._linear = None
         self.line_names = [line.name for line in self.scene.lines]
         self.coupled_names = [self.scene.points[p].name for p in self._model.coupled_points]
         self.static_result = None
@@ -92,8 +82,8 @@ class Mooring:
 
     def settle(self, pose, time=0.0):
         """Static equilibrium with the platform at rest at `pose` (7,), from a cold start; the clock stands at `time` (s) after it."""
-        pose = _checked_poses(_shaped(pose, (7,), "pose", "x, y, z, qx, qy, qz, qw"))
-        time = float(_shaped(time, (), "time", "seconds"))
+        pose = checked_poses(shaped(pose, (7,), "pose", "x, y, z, qx, qy, qz, qw"))
+        time = float(shaped(time, (), "time", "seconds"))
         if not np.isfinite(time):
             raise ValueError(f"time is {time!r}; expected a finite number of seconds")
         state, result = self._static_state(pose)
@@ -101,6 +91,8 @@ class Mooring:
         _assign(self._state, state)
         self.static_result = result
         self._settled = True
+        if self.fidelity == "linear":
+            self._linear = self._linearised(pose)
         observe(self._model, self._state, 0, self._readings)
 
     def step(self, t, pose, twist):
@@ -111,8 +103,8 @@ class Mooring:
         the mooring as it was.
         """
         self._time[0] = self._checked_time(t)
-        self._pose[0] = _checked_poses(_shaped(pose, (7,), "pose", "x, y, z, qx, qy, qz, qw"))
-        self._twist[0] = _checked_twists(_shaped(twist, (6,), "twist", "vx, vy, vz, wx, wy, wz"))
+        self._pose[0] = checked_poses(shaped(pose, (7,), "pose", "x, y, z, qx, qy, qz, qw"))
+        self._twist[0] = checked_twists(shaped(twist, (6,), "twist", "vx, vy, vz, wx, wy, wz"))
         self._need_settled()
         self._run(self._time, self._pose, self._twist, self._readings)
 
@@ -121,29 +113,29 @@ class Mooring:
 
         When a step cannot be completed, MooringError is raised with the attribute `history` holding the samples done before it.
         """
-        times = _numbers(times, "times").reshape(-1)
-        poses, twists = _numbers(poses, "poses"), _numbers(twists, "twists")
+        times = numbers(times, "times").reshape(-1)
+        poses, twists = numbers(poses, "poses"), numbers(twists, "twists")
         if poses.shape != (times.size, 7) or twists.shape != (times.size, 6):
             raise ValueError(f"times {times.shape}, poses {poses.shape}, twists {twists.shape}; expected (k,), (k, 7), (k, 6)")
         if times.size == 0:
-            return self._history(times, new_readings(self._model, 0))
+            return History.of(times, new_readings(self._model, 0))
         self._need_settled()
         self._checked_time(times[0])
         if not (np.isfinite(times).all() and (np.diff(times) > 0.0).all()):
             raise ValueError("times must be finite and grow from sample to sample")
-        poses, twists = _checked_poses(poses), np.ascontiguousarray(_checked_twists(twists))
+        poses, twists = checked_poses(poses), np.ascontiguousarray(checked_twists(twists))
         readings, done = new_readings(self._model, times.size), 0
         try:
             done = self._run(times, poses, np.ascontiguousarray(twists), readings)
         except MooringError as error:
             done = error.samples
-            error.history = self._history(times[:done], _rows(readings, slice(0, done)))
+            error.history = History.of(times[:done], _rows(readings, slice(0, done)))
             raise
         finally:
             if done:
                 for mine, row in zip(self._readings, _rows(readings, slice(done - 1, done))):
                     mine[:] = row
-        return self._history(times, readings)
+        return History.of(times, readings)
 
     def release(self, line_name):
         """Let go of the fairlead end of a line; it falls from where it is. Raises ValueError for an unknown or loose line."""
@@ -152,14 +144,17 @@ class Mooring:
         if self._state.end_point[end] == LOOSE:
             raise ValueError(f"{line_name} has been let go already")
         self._state.end_point[end] = LOOSE
-        if self._settled:
+        if self.fidelity == "linear" and self._settled:
+            self._linear = self._linearised(self._linear.pose)
+            self._linear.show(self._state, self.pose, self.twist, 0, self._readings)
+        elif self._settled:
             settings = self._state.settings
             evaluate_once(self._model, self._state, self._scratch, settings[0], settings[1], bool(settings[2]))
             observe(self._model, self._state, 0, self._readings)
 
     def snapshot(self):
         """A copy of everything that changes, for `restore`."""
-        return Snapshot(self._identity, _copy(self._state), tuple(array.copy() for array in self._readings), self._settled)
+        return Snapshot(self._identity, _copy(self._state), tuple(array.copy() for array in self._readings), self._settled, self._linear)
 
     def restore(self, saved):
         """Go back to a snapshot of this mooring or one like it, bit for bit. Raises ValueError for one of another mooring."""
@@ -168,7 +163,7 @@ class Mooring:
         _assign(self._state, saved.state)
         for mine, theirs in zip(self._readings, saved.readings):
             mine[:] = theirs
-        self._settled = saved.settled
+        self._settled, self._linear = saved.settled, saved.linear
 
     # -- reading ----------------------------------------------------------------------------------------------------------------------
 
@@ -215,7 +210,7 @@ class Mooring:
     @property
     def coupled_wrenches(self):
         """(coupled points, 6) N and N m on the platform at each coupled point, world frame; lines are pinned, so the moments are zero."""
-        return _with_moments(self._readings.coupled_force[0])
+        return with_moments(self._readings.coupled_force[0])
 
     @property
     def stretched_length(self):
@@ -306,6 +301,8 @@ class Mooring:
     def _run(self, times, poses, twists, readings):
         if self.fidelity == "quasi_static":
             return self._run_statics(times, poses, twists, readings)
+        if self.fidelity == "linear":
+            return self._run_linear(times, poses, twists, readings)
         status, done = explicit.run(
             self._model, self._state, self._scratch, self._table, times, poses, twists, self._report, readings
         )
@@ -335,12 +332,22 @@ class Mooring:
             self._state.twist[:] = twists[sample]  # not before: it would bring inertia into the readings
         return times.size
 
+    def _linearised(self, pose):
+        return linearise(self._model, pose, lambda there: self._static_state(there, warm=True)[0], self.stiffness())
+
+    def _run_linear(self, times, poses, twists, readings):
+        for sample, (pose, twist) in enumerate(zip(poses, twists)):
+            self._linear.show(self._state, pose, twist, sample, readings)
+        self._state.clock[0], self._state.pose[:], self._state.twist[:] = times[-1], poses[-1], twists[-1]
+        self._report[:] = 0.0, times.size, 0.0, 0.0
+        return times.size
+
     def _need_settled(self):
         if not self._settled:
             raise ValueError("the mooring has not been settled; call settle(pose) first")
 
     def _checked_time(self, t):
-        t = float(_shaped(t, (), "t", "seconds"))
+        t = float(shaped(t, (), "t", "seconds"))
         if not np.isfinite(t):
             raise ValueError(f"t is {t!r}; expected a finite number of seconds")
         if not t > self._state.clock[0]:
@@ -356,55 +363,6 @@ class Mooring:
         line = self._line(line_name)
         first = int(self._model.first_node[line])
         return slice(first, first + int(self._model.segments[line]) + 1)
-
-    @staticmethod
-    def _history(times, readings):
-        return History(
-            time=times.copy(),
-            wrench=readings.wrench,
-            anchor_tension=readings.tension[:, :, 0],
-            fairlead_tension=readings.tension[:, :, 1],
-            anchor_end_force=readings.end_force[:, :, 0],
-            fairlead_end_force=readings.end_force[:, :, 1],
-            stretched_length=readings.length,
-            length_rate=readings.length_rate,
-            coupled_wrenches=_with_moments(readings.coupled_force),
-        )
-
-
-def _numbers(values, name):
-    try:
-        return np.asarray(values, dtype=float)
-    except (TypeError, ValueError) as error:
-        raise ValueError(f"{name} is {values!r}; expected numbers") from error
-
-
-def _shaped(values, shape, name, meaning):
-    values = _numbers(values, name)
-    if values.shape != shape:
-        raise ValueError(f"{name} has shape {values.shape}; expected {shape}: {meaning}")
-    return values
-
-
-def _checked_poses(poses):
-    """Copies of poses (..., 7) with unit quaternions; ValueError when they are not finite or far from unit length."""
-    if not np.isfinite(poses).all():
-        raise ValueError("a pose holds a number that is not finite")
-    norm = np.sqrt((poses[..., 3:] ** 2).sum(axis=-1, keepdims=True))
-    if (np.abs(norm - 1.0) > QUATERNION_TOLERANCE).any():
-        raise ValueError(f"a pose's quaternion has length {norm.flat[np.abs(norm - 1.0).argmax()]:.6g}; expected 1")
-    return np.concatenate([poses[..., :3], poses[..., 3:] / norm], axis=-1)
-
-
-def _checked_twists(twists):
-    if not np.isfinite(twists).all():
-        raise ValueError("a twist holds a number that is not finite")
-    return twists
-
-
-def _with_moments(forces):
-    """Wrenches (..., 6) of pinned points from their forces (..., 3)."""
-    return np.concatenate([forces, np.zeros_like(forces)], axis=-1)
 
 
 def _rows(readings, rows):
