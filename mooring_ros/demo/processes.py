@@ -22,6 +22,7 @@ class Child:
         owner = os.getpid()
 
         def tie_to_owner():
+            signal.signal(signal.SIGINT, signal.SIG_DFL)  # a shell that starts us in the background has it ignored
             libc.prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
             if os.getppid() != owner:  # it died in between
                 os._exit(1)

@@ -41,7 +41,10 @@ def test_the_end_of_its_log_says_why_it_failed(child):
     assert talker.tail(2).splitlines() == ["line 49", "out of chain"]
 
 
-def test_stop_is_an_interrupt_and_what_it_does_then_is_finished(child):
+@pytest.mark.parametrize("in_the_owner", [signal.default_int_handler, signal.SIG_IGN], ids=["heeded", "ignored"])
+def test_stop_is_an_interrupt_and_what_it_does_then_is_finished(child, in_the_owner):
+    """Also where the owner ignores it, as what a shell starts in the background does."""
+    before = signal.signal(signal.SIGINT, in_the_owner)
     talker = child(
         """
         import sys, time
@@ -52,6 +55,7 @@ def test_stop_is_an_interrupt_and_what_it_does_then_is_finished(child):
             print("closed", flush=True)
         """
     )
+    signal.signal(signal.SIGINT, before)
     while "ready" not in talker.tail():
         time.sleep(0.02)
     assert talker.stop() == 0
