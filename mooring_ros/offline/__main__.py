@@ -45,9 +45,17 @@ def main(argv=None) -> int:
         complain(str(error))
         return 1
     except BrokenPipeError:
-        # Whoever read our output has gone; keep the interpreter from complaining about it at exit.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _drop_output()  # whoever read it has gone
         return 1
+    except OSError as error:
+        complain(f"mooring: {error}")
+        _drop_output()
+        return 1
+
+
+def _drop_output():
+    """Keep the interpreter from complaining at exit about what could not be written."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 class _Parser(argparse.ArgumentParser):

@@ -104,7 +104,8 @@ def test_help_is_status_0(mooring):
 def process(*words, **options):
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
     return subprocess.run(
-        [sys.executable, "-m", "mooring_ros.offline", *map(str, words)], capture_output=True, text=True, env=environment, timeout=120, **options
+        [sys.executable, "-m", "mooring_ros.offline", *map(str, words)],
+        **{"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True, "env": environment, "timeout": 120, **options},
     )
 
 
@@ -112,6 +113,14 @@ def test_as_a_process_bad_input_is_status_2_without_a_traceback(files):
     done = process("static", files["{dir}"] / "broken.txt")
     assert done.returncode == 2 and done.stdout == ""
     assert done.stderr.count("\n") == 1 and "broken.txt:16: " in done.stderr
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no device that is always full")
+def test_as_a_process_a_full_disk_under_its_output_is_status_1_without_a_traceback(scene):
+    with open("/dev/full", "w") as full:
+        done = process("static", scene, stdout=full)
+    assert done.returncode == 1
+    assert done.stderr.count("\n") == 1 and "No space left on device" in done.stderr
 
 
 def test_as_a_process_json_is_one_object_and_nothing_else(scene):
