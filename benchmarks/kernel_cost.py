@@ -17,7 +17,7 @@ from mooring_ros.scene import load_scene
 from . import ours, tables
 from .motions import SurgeHeave
 
-SCENE = Path(__file__).parent.parent / "config" / "scenes" / "oc4_semi.txt"
+SCENE = Path(__file__).parent.parent / "config" / "scenes" / "oc4.txt"
 NODES = (60, 120, 300, 1000, 10000)
 GOAL = 10e-9  # s for a node and evaluation
 GOAL_FROM = 120  # nodes

@@ -14,9 +14,9 @@ from .motions import SurgeHeave
 
 SCENES = Path(__file__).parent.parent / "config" / "scenes"
 CASES = (
-    ("OC4 3 x 20", "oc4_semi.txt", 20),
-    ("OC4 3 x 40", "oc4_semi.txt", 40),
-    ("OC4 3 x 100", "oc4_semi.txt", 100),
+    ("OC4 3 x 20", "oc4.txt", 20),
+    ("OC4 3 x 40", "oc4.txt", 40),
+    ("OC4 3 x 100", "oc4.txt", 100),
     ("VolturnUS-S 3 x 50", "volturnus_s_chain.txt", 50),
 )
 FILE = Path(__file__).parent / "data" / "moordyn_converged.csv"

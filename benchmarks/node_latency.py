@@ -23,7 +23,7 @@ from rclpy.executors import ExternalShutdownException
 from rclpy.experimental.events_executor import EventsExecutor
 from rclpy.qos import QoSProfile
 
-SCENE = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "config", "scenes", "oc4_semi.txt")
+SCENE = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "config", "scenes", "oc4.txt")
 ECHOES = ("echo", "echo_events")
 NODES = (*ECHOES, "mooring")
 DEPTH = 10

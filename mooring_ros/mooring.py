@@ -1,7 +1,7 @@
 """The façade: one mooring, for the live node, the replay and Python alike."""
 
 import hashlib
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -23,6 +23,7 @@ from .scene import Scene, load_scene
 FIDELITIES = ("dynamic", "quasi_static", "linear")
 SOLVERS = ("auto", "explicit")
 MOST_SEGMENTS = 100_000  # of a line
+MOST_STRAIN = 1.0  # of a line in motion, or twice that of the settled one
 SWINGS, SWING_TIME = 30, 20.0  # s: how often and how long lines may swing where the statics do not converge at once
 
 
@@ -31,10 +32,10 @@ class Snapshot:
     """A copy of everything that changes in a mooring; opaque, for `Mooring.restore`."""
 
     mooring: str
-    state: State
-    readings: tuple
+    state: State = field(repr=False)
+    readings: tuple = field(repr=False)
     settled: bool
-    linear: LinearResponse | None
+    linear: LinearResponse | None = field(repr=False)
 
 
 class Mooring:
@@ -70,6 +71,9 @@ class Mooring:
         self._readings = new_readings(self._model, 1)
         self.step_limit = step_limit(self.scene, self._model, dt)
         self._table = step_table(self.step_limit.axial, self.step_limit.dt)
+        self.warnings = self.scene.warnings
+        if dt is not None and dt > self.step_limit.dt:
+            self.warnings += (f"dt = {dt:g} s is more than the largest step, {self.step_limit.dt:.4g} s ({self.step_limit.limited_by}), which is taken",)
         self._report = np.zeros(4)
         self._time, self._pose, self._twist = np.zeros(1), np.zeros((1, 7)), np.zeros((1, 6))
         self._settled = False
@@ -88,6 +92,8 @@ class Mooring:
             raise ValueError(f"time is {time!r}; expected a finite number of seconds")
         state, result = self._static_state(pose)
         state.clock[0] = time
+        strain = (state.tension / np.maximum(self._model.stiffness, 1e-300)).max()
+        state.settings[5] = max(MOST_STRAIN, 2.0 * strain)
         _assign(self._state, state)
         self.static_result = result
         self._settled = True
@@ -185,42 +191,42 @@ class Mooring:
     @property
     def wrench(self):
         """(6,) N and N m of the mooring on the platform, about its reference point, world frame."""
-        return self._readings.wrench[0].copy()
+        return self._shown.wrench[0].copy()
 
     @property
     def fairlead_tension(self):
         """(lines,) N, of the end segments at the fairleads."""
-        return self._readings.tension[0, :, 1].copy()
+        return self._shown.tension[0, :, 1].copy()
 
     @property
     def anchor_tension(self):
         """(lines,) N, of the end segments at the anchors."""
-        return self._readings.tension[0, :, 0].copy()
+        return self._shown.tension[0, :, 0].copy()
 
     @property
     def fairlead_end_force(self):
         """(lines, 3) N of each line on what holds its fairlead end: with the half segment's weight, drag and inertia."""
-        return self._readings.end_force[0, :, 1].copy()
+        return self._shown.end_force[0, :, 1].copy()
 
     @property
     def anchor_end_force(self):
         """(lines, 3) N of each line on what holds its anchor end."""
-        return self._readings.end_force[0, :, 0].copy()
+        return self._shown.end_force[0, :, 0].copy()
 
     @property
     def coupled_wrenches(self):
         """(coupled points, 6) N and N m on the platform at each coupled point, world frame; lines are pinned, so the moments are zero."""
-        return with_moments(self._readings.coupled_force[0])
+        return with_moments(self._shown.coupled_force[0])
 
     @property
     def stretched_length(self):
         """(lines,) m."""
-        return self._readings.length[0].copy()
+        return self._shown.length[0].copy()
 
     @property
     def length_rate(self):
         """(lines,) m/s."""
-        return self._readings.length_rate[0].copy()
+        return self._shown.length_rate[0].copy()
 
     def node_positions(self, line_name):
         """(N + 1, 3) m, from end A to end B."""
@@ -233,7 +239,7 @@ class Mooring:
         segments = self._state.tension[nodes.start + 1 : nodes.stop]
         tension = np.empty(segments.size + 1)
         tension[1:-1] = 0.5 * (segments[1:] + segments[:-1])
-        ends = np.linalg.norm(self._readings.end_force[0, line], axis=1)
+        ends = np.linalg.norm(self._shown.end_force[0, line], axis=1)
         tension[0], tension[-1] = ends if self._model.fairlead_end[line] == 1 else ends[::-1]
         return tension
 
@@ -310,6 +316,7 @@ class Mooring:
             cause = {
                 explicit.RUNAWAY: "ran away (speeds that nothing here can cause, or tensions that collapse) even with a step of "
                 f"{self.step_limit.dt / explicit.FINEST:.3g} s",
+                explicit.OVERSTRETCHED: f"stretches a line by more than {100.0 * self._state.settings[5]:.0f} % of its length",
                 explicit.TOO_LONG: f"needs more than {explicit.MOST_STEPS:g} steps of {self.step_limit.dt:.3g} s; expected shorter intervals",
                 explicit.TOO_FAST: f"moves the platform faster than {FASTEST:g} m/s",
             }[status]
@@ -359,7 +366,13 @@ class Mooring:
             raise ValueError(f"there is no line {name!r}; expected one of {', '.join(self.line_names)}")
         return self.line_names.index(name)
 
+    @property
+    def _shown(self):
+        self._need_settled()
+        return self._readings
+
     def _nodes(self, line_name):
+        self._need_settled()
         line = self._line(line_name)
         first = int(self._model.first_node[line])
         return slice(first, first + int(self._model.segments[line]) + 1)

@@ -7,13 +7,13 @@ from scenes_in_code import HERE, SCENES, STILL, same_bits, surge_heave, turn
 from mooring_ros import Mooring
 
 
-def settled(fidelity, file="oc4_semi.txt", pose=HERE):
+def settled(fidelity, file="oc4.txt", pose=HERE):
     mooring = Mooring(SCENES / file, fidelity=fidelity)
     mooring.settle(pose)
     return mooring
 
 
-@pytest.mark.parametrize("file", ["oc3_spar.txt", "oc4_semi.txt", "volturnus_s_chain.txt", "chalmers_33m.txt"])
+@pytest.mark.parametrize("file", ["oc3_spar.txt", "oc4.txt", "volturnus_s_chain.txt", "chalmers_33m.txt"])
 def test_quasi_static_is_the_equilibrium_at_every_sample(file):
     scale = 0.01 if "33m" in file else 1.0
     times = np.arange(1, 21) * 0.5

@@ -10,7 +10,7 @@ from scenes_in_code import COUPLED, FIXED, FREE, HERE, SCENES, STILL, line_type,
 
 from mooring_ros import Mooring, MooringError
 
-OC4 = SCENES / "oc4_semi.txt"
+OC4 = SCENES / "oc4.txt"
 TIMES = np.arange(1, 101) * 0.05
 POSES, TWISTS = surge_heave(TIMES, pitch=0.1)
 
@@ -311,7 +311,7 @@ def test_two_processes_give_the_same_bits():
 
 def test_first_step_at_rest_changes_nothing_that_matters():
     """From the statics with the platform still: tensions stay within 1e-6, in any scene."""
-    for file in ("oc3_spar.txt", "oc4_semi.txt", "volturnus_s_chain.txt", "chalmers_33m.txt"):
+    for file in ("oc3_spar.txt", "oc4.txt", "volturnus_s_chain.txt", "chalmers_33m.txt"):
         mooring = settled(SCENES / file)
         want = mooring.fairlead_tension
         for t in (0.05, 0.5, 5.0):
@@ -401,7 +401,7 @@ def tension_peaks(mooring, samples):
     return np.array(rows)
 
 
-@pytest.mark.parametrize("file", ["oc4_semi.txt", "chalmers_33m.txt"])
+@pytest.mark.parametrize("file", ["oc4.txt", "chalmers_33m.txt"])
 @pytest.mark.parametrize("name", VIOLENT)
 def test_violent_input_is_answered_rightly_or_refused(name, file):
     """Finite and within 5 % of the largest tension (or the line's weight) of a run with steps 20 times finer; or MooringError, with every
@@ -409,7 +409,7 @@ def test_violent_input_is_answered_rightly_or_refused(name, file):
 
     The laboratory chain gets the motions at 1:60, times at 1:sqrt(60).
     """
-    scale = 1.0 if file == "oc4_semi.txt" else 60.0
+    scale = 1.0 if file == "oc4.txt" else 60.0
     samples = [
         (t / np.sqrt(scale), np.append(pose[:3] / scale, pose[3:]), twist * np.repeat([np.sqrt(scale) / scale, np.sqrt(scale)], 3))
         for t, pose, twist in VIOLENT[name]
@@ -457,3 +457,23 @@ def test_a_whole_turn_of_the_platform_brings_the_tensions_back():
     run = mooring.run(times, poses, twists)
     assert np.abs(run.wrench[200, 5]) > 1e6
     np.testing.assert_allclose(run.fairlead_tension[-1], want, rtol=5e-3)
+
+
+def test_a_place_that_the_lines_do_not_reach_is_refused_and_named():
+    """A kilometre away in a tenth of a second would double the lines' length: MooringError that says so, every bit as before."""
+    mooring = settled()
+    before = mooring.snapshot()
+    with pytest.raises(MooringError, match="stretches a line by more than 100 %"):
+        mooring.step(0.1, at(1000.0), STILL)
+    assert same_bits(before, mooring.snapshot())
+
+
+@pytest.mark.parametrize("name", ["wrench", "fairlead_tension", "coupled_wrenches", "length_rate"])
+def test_nothing_is_read_before_the_first_settle(name):
+    with pytest.raises(ValueError, match="settle"):
+        getattr(Mooring(SCENES / "oc4.txt"), name)
+
+
+def test_a_step_beyond_the_largest_is_said():
+    mooring = Mooring(SCENES / "oc4.txt", dt=5.0)
+    assert "dt = 5 s is more than the largest step" in mooring.warnings[-1]

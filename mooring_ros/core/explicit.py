@@ -4,7 +4,7 @@ import numpy as np
 
 from .cache import kernel, stage
 from .forces import evaluate, evaluate_once
-from .guard import EVEN, FASTEST, IMPLAUSIBLE, TORN, UNEVEN, keep_tension, recall, runaway, save, speed_of_ends, tension_jumped
+from .guard import EVEN, FASTEST, IMPLAUSIBLE, TORN, UNEVEN, keep_tension, overstretched, recall, runaway, save, speed_of_ends, tension_jumped
 from .platform import start_motion
 from .points import place_coupled_points, place_staggered_coupled_points, speed_coupled_points
 from .readings import show
@@ -12,7 +12,7 @@ from .schemes import LEAPFROG
 from .seabed import set_bed_relief
 from .surface import all_wet, reaches_above
 
-DONE, RUNAWAY, TOO_FAST, TOO_LONG = 0, 1, 2, 3  # status codes
+DONE, RUNAWAY, TOO_FAST, TOO_LONG, OVERSTRETCHED = 0, 1, 2, 3, 4  # status codes
 
 CHUNK = 64  # largest steps between two looks at the guard
 MOST_STEPS = 1e7  # largest steps in an interval: some minutes of work
@@ -175,14 +175,15 @@ def advance(model, state, scratch, table, time, pose, twist, report):
             recall(model, state, scratch.saved[source])
             refined *= 2.0
             retries += 1
-        if wild:
+        torn = overstretched(model, state, settings[5])
+        if wild or torn:
             recall(model, state, scratch.saved[0])
             settings[0], settings[1], settings[2], settings[3], settings[4] = previous
             set_bed_relief(model, state, settings[1])
             if settings[2] == 0.0:
                 all_wet(model, state)
             evaluate_again(model, state, scratch)
-            return RUNAWAY
+            return RUNAWAY if wild else OVERSTRETCHED
         steps_taken += steps
         shortest = min(shortest, h)
         now = state.clock[0] + (chunk + 1) * span

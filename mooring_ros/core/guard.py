@@ -35,6 +35,15 @@ def runaway(model, state, fastest):
 
 
 @stage
+def overstretched(model, state, strain):
+    """True when a segment is stretched beyond `strain`: the platform has gone where its lines do not reach."""
+    over = 0
+    for i in range(model.size + 1):
+        over |= state.tension[i] > strain * model.stiffness[i]
+    return over != 0
+
+
+@stage
 def save(model, state, copy):
     for k in range(3):
         for i in range(model.mass.size):

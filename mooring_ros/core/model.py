@@ -84,7 +84,7 @@ class State(NamedTuple):
     inertia_axial: np.ndarray  # (n,), kg
     bed_relief: np.ndarray  # (n,): factor on the vertical acceleration of a node in contact, 0..1
     end_point: np.ndarray  # (E,) index of the point that holds the end, or LOOSE
-    settings: np.ndarray  # (5,) drag time (s), Euler step of the bed (s), 1 if wet shares are computed; refinement of the step, kept until (s)
+    settings: np.ndarray  # (6,) drag time (s), Euler step of the bed (s), 1 if wet shares are computed; refinement of the step, kept until (s); largest strain
 
 
 class Scratch(NamedTuple):
@@ -245,7 +245,7 @@ def new_state(model, end_point):
         inertia_axial=np.zeros(n),
         bed_relief=np.ones(n),
         end_point=end_point.copy(),
-        settings=np.array([0.0, 0.0, 0.0, 1.0, 0.0]),
+        settings=np.array([0.0, 0.0, 0.0, 1.0, 0.0, np.inf]),
     )
 
 

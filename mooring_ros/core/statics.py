@@ -106,7 +106,7 @@ class StaticSolver:
     def solve(self, state, scratch):
         """Newton from the present positions (and tensions); returns a StaticResult. Positions are the best found, velocities zero."""
         free = _free_rows(self.model, state)
-        state.settings[:] = (0.0, 0.0, 1.0, 1.0, 0.0)
+        state.settings[:] = (0.0, 0.0, 1.0, 1.0, 0.0, np.inf)
         state.bed_relief[:] = 1.0
         goal = max(self.tolerance, self._rounding(state))
         best = _Best()

@@ -127,14 +127,16 @@ class MooringNode(LifecycleNode):
         if not values["scene"]:
             raise ValueError("parameter scene is empty, expected the path of a MoorDyn v2 input file")
         scene = load_scene(values["scene"])
-        for warning in scene.warnings:
-            self.get_logger().warning(warning)
+        for name in parameters.unknown(self):
+            self.get_logger().warning(f"there is no parameter {name}: it is not used")
         settings = {"fidelity": values["fidelity"], "solver": values["solver"], "dt": values["dt"] or None, "segments": values["segments"] or None}
         begin = time.monotonic()
         self._warm_up(Mooring(scene, **settings))
         self.get_logger().info(f"compiled in {time.monotonic() - begin:.1f} s")
         adapter = Adapter(values["twist_frame"], values["convention"], values["wrench_frame"], values["scale"], values["density_ratio"])
         mooring = Mooring(scene, **settings)
+        for warning in mooring.warnings:
+            self.get_logger().warning(warning)
         self._mooring, self._adapter = mooring, adapter
         self._recorder = self._open_recording(values, scene)
         self._outputs = Outputs(self, mooring, adapter, self._recorder, values["visual_rate"])

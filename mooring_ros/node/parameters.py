@@ -117,3 +117,10 @@ def _check(changes, configured):
 
 def _refused(reason):
     return SetParametersResult(successful=False, reason=reason)
+
+
+def unknown(node):
+    """Names that were given for a node at its start and that it does not have."""
+    # rclpy keeps what was given on the command line and in files to itself
+    given = getattr(node, "_parameter_overrides", {})
+    return sorted(name for name in given if not node.has_parameter(name) and not name.startswith("qos_overrides."))

@@ -57,7 +57,7 @@ def run(args):
     motion = _motion(args)
     settings = _settings(args, motion)
     mooring = load_mooring(args.scene, **{name: settings[name] or None for name in MODEL})
-    for remark in (*mooring.scene.warnings, *motion.remarks):
+    for remark in (*mooring.warnings, *motion.remarks):
         complain(remark)
     scene_is_recorded = _compare_scenes(args.scene, mooring.scene, motion)
 

@@ -143,7 +143,7 @@ def test_conservative_swing_keeps_its_energy():
 
 def test_wrench_is_the_sum_of_the_fairlead_forces_and_their_moments():
     """About the reference point, in a motion with surge, heave and pitch from a turned pose: 1e-12 of the largest arm times force."""
-    mooring = Mooring(SCENES / "oc4_semi.txt")
+    mooring = Mooring(SCENES / "oc4.txt")
     heading = turn([0.3, 0.2, 1.0], 0.4)
     times = np.arange(1, 61) * 0.1
     poses, twists = surge_heave(times, pitch=0.1)

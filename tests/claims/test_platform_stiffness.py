@@ -9,7 +9,7 @@ from scenes_in_code import HERE, SCENES, line_type, same_bits, scene, table, tim
 from mooring_ros import Mooring
 from mooring_ros.scene import load_scene
 
-CASES = {"OC3_Hywind": "oc3_spar.txt", "OC4_DeepCwind_rtest_L835.35": "oc4_semi.txt", "VolturnUS_S": "volturnus_s_chain.txt"}
+CASES = {"OC3_Hywind": "oc3_spar.txt", "OC4_DeepCwind_rtest_L835.35": "oc4.txt", "VolturnUS_S": "volturnus_s_chain.txt"}
 TILTED = np.concatenate([[6.0, -4.0, 1.5], times_quaternion(turn([0, 0, 1], 0.2), turn([1, 2, 0], 0.1))])
 
 
@@ -93,7 +93,7 @@ def test_stiffness_with_free_points_is_the_derivative_too():
 
 
 def test_asking_for_the_stiffness_changes_nothing():
-    mooring = Mooring(SCENES / "oc4_semi.txt")
+    mooring = Mooring(SCENES / "oc4.txt")
     mooring.settle(HERE)
     mooring.step(0.1, HERE, np.array([0.1, 0.0, 0.0, 0.0, 0.0, 0.0]))
     before = mooring.snapshot()

@@ -12,7 +12,7 @@ POSES, TWISTS = surge_heave(TIMES)
 
 def spoilt(factor):
     """A mooring that believes its stable steps to be `factor` times longer, settled, after a second that was sound."""
-    mooring = Mooring(SCENES / "oc4_semi.txt")
+    mooring = Mooring(SCENES / "oc4.txt")
     mooring.settle(HERE)
     mooring.run(TIMES[:10], POSES[:10], TWISTS[:10])
     mooring._table[:, 1] *= factor
@@ -20,7 +20,7 @@ def spoilt(factor):
 
 
 def sound():
-    mooring = Mooring(SCENES / "oc4_semi.txt")
+    mooring = Mooring(SCENES / "oc4.txt")
     mooring.settle(HERE)
     return mooring.run(TIMES, POSES, TWISTS).fairlead_tension
 
@@ -60,7 +60,7 @@ def test_hopeless_step_is_refused_and_leaves_every_bit_as_it_was():
 
 def test_after_a_refusal_it_goes_on_as_if_nothing_had_been_asked():
     """A refused second leaves no trace: sound steps from there have the bits of a mooring that was never spoilt."""
-    other = Mooring(SCENES / "oc4_semi.txt")
+    other = Mooring(SCENES / "oc4.txt")
     other.settle(HERE)
     other.run(TIMES[:10], POSES[:10], TWISTS[:10])
     mooring = spoilt(1.0)

@@ -102,7 +102,7 @@ def test_axial_limit_is_that_of_the_table(row):
 
 @pytest.mark.parametrize(
     ("file", "case"),
-    [("oc4_semi.txt", "OC4 DeepCwind chain l=41.8m (20 seg)"), ("oc3_spar.txt", "OC3 Hywind l=45m (20 seg)")]
+    [("oc4.txt", "OC4 DeepCwind chain l=41.8m (20 seg)"), ("oc3_spar.txt", "OC3 Hywind l=45m (20 seg)")]
     + [("volturnus_s_chain.txt", "VolturnUS-S chain l=17m (50 seg)")],
 )
 def test_limits_of_the_scenes_are_those_of_the_table(file, case):
@@ -186,7 +186,7 @@ def test_strong_motion_with_slack_is_that_of_finer_steps(zeta):
 
 
 def test_a_given_step_is_kept_and_one_beyond_the_limit_is_not():
-    file = SCENES / "oc4_semi.txt"
+    file = SCENES / "oc4.txt"
     free = Mooring(file)
     assert Mooring(file, dt=1e-3).step_limit.dt == 1e-3
     assert Mooring(file, dt=10.0).step_limit.dt == free.step_limit.dt

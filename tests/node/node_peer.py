@@ -24,7 +24,7 @@ from std_msgs.msg import Float64MultiArray
 from std_srvs.srv import Trigger
 from lifecycle_msgs.msg import Transition
 
-SCENE = str(Path(__file__).parents[2] / "config" / "scenes" / "oc4_semi.txt")
+SCENE = str(Path(__file__).parents[2] / "config" / "scenes" / "oc4.txt")
 UPRIGHT = (0.0, 0.0, 0.0, 1.0)
 START = 180.0           # s, cold compilation included
 _domains = itertools.count()

@@ -63,7 +63,7 @@ def test_a_bad_scene_is_a_failed_configure_with_file_and_line_and_another_scene_
     _, _, message = peer.diagnostic("core", lambda level, *_: level == ERROR)
     assert message.startswith(place) and place in process.log
 
-    other = SCENE.replace("oc4_semi", "volturnus_s_chain")
+    other = SCENE.replace("oc4", "volturnus_s_chain")
     assert peer.set("scene", other).successful
     assert peer.transition("configure") and peer.transition("activate")
     peer.wait_for_node()

@@ -68,7 +68,7 @@ def test_the_list_of_scenes_is_complete():
     "name, weight, tension",
     [
         ("oc3_spar", 698.0945, 911088.4),
-        ("oc4_semi", 1065.26128, 1105373.14),
+        ("oc4", 1065.26128, 1105373.14),
         ("volturnus_s_chain", 5842.12230, 2435559.7),
         ("chalmers_33m", 0.699, 22.6715),
     ],
@@ -86,7 +86,7 @@ def test_weight_and_pretension_are_the_published_ones(name, weight, tension):
     "name, vertical, surge, heave, roll, yaw, surge_pitch, accuracy",
     [
         ("oc3_spar", -1.607e6, 41180.0, 11940.0, 311.1e6, 11.56e6, -2.8185e6, 2e-3),
-        ("oc4_semi", -1893320.2, 70836.05, 19140.47, 87240750.0, 116970167.0, -107232.0, 2e-4),
+        ("oc4", -1893320.2, 70836.05, 19140.47, 87240750.0, 116970167.0, -107232.0, 2e-4),
         ("volturnus_s_chain", -6082426.2, 71891.38, 60742.61, 258591174.0, 252292414.0, 1144725.2, 2e-4),
     ],
 )
