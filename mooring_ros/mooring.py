@@ -79,6 +79,7 @@ class Mooring:
         self._settled = False
         self._linear = None
         self.line_names = [line.name for line in self.scene.lines]
+        self.segments = [int(count) for count in self._model.segments]  # of each line
         self.coupled_names = [self.scene.points[p].name for p in self._model.coupled_points]
         self.static_result = None
 

@@ -44,7 +44,7 @@ class Messages:
         self._wrench = _wrench_template(wrench_frame)
         self._lines = _lines_template(self._line_names, world_frame)
         self._line_tensions = _line_tensions_template(len(self._line_names))
-        sizes = [len(mooring.node_tension(name)) for name in self._line_names]
+        sizes = [segments + 1 for segments in mooring.segments]
         self._nodes = _nodes_template(sum(sizes), world_frame)
         self._cloud = np.zeros((sum(sizes), len(NODE_FIELDS)), dtype="<f4")
         self._cloud[:, 5] = np.repeat(np.arange(len(sizes)), sizes)
