@@ -45,7 +45,7 @@ def test_the_exit_status_of_the_command_is_passed_on(checkout):
 
 def test_a_signal_reaches_the_command(checkout):
     checkout.run("python", "-c", "")
-    process = checkout.start("python", "-c", "import time\nprint('here', flush=True)\ntry: time.sleep(60)\nexcept KeyboardInterrupt: raise SystemExit(130)")
+    process = checkout.start("python", "-c", "import time\ntry:\n    print('here', flush=True)\n    time.sleep(60)\nexcept KeyboardInterrupt:\n    raise SystemExit(130)")
     process.stdout.readline()
     process.send_signal(signal.SIGINT)
     process.communicate(timeout=20)
