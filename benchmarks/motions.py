@@ -24,15 +24,8 @@ def poses_and_twists(position, velocity):
     return poses, twists
 
 
-@dataclass(frozen=True)
-class SurgeHeave:
-    """Surge ``sin`` and heave ``cos`` at one period: the reference point runs an ellipse, ramped up smoothly from rest at the zero pose."""
-
-    surge: float = 4.0  # m, amplitude
-    heave: float = 3.0  # m, amplitude
-    period: float = 14.5  # s
-    ramp_periods: float = 3.0
-    measured_periods: float = 4.0
+class Periodic:
+    """A motion of ``period`` s that is ramped up over ``ramp_periods`` and then measured over ``measured_periods``."""
 
     @property
     def start(self) -> float:
@@ -43,6 +36,17 @@ class SurgeHeave:
     def end(self) -> float:
         """Time to which is measured (s)."""
         return (self.ramp_periods + self.measured_periods) * self.period
+
+
+@dataclass(frozen=True)
+class SurgeHeave(Periodic):
+    """Surge ``sin`` and heave ``cos`` at one period: the reference point runs an ellipse, ramped up smoothly from rest at the zero pose."""
+
+    surge: float = 4.0  # m, amplitude
+    heave: float = 3.0  # m, amplitude
+    period: float = 14.5  # s
+    ramp_periods: float = 3.0
+    measured_periods: float = 4.0
 
     def displacement(self, t):
         """Displacement (n, 3) in m and velocity (n, 3) in m/s of the platform at the times t (n,)."""
@@ -56,7 +60,7 @@ class SurgeHeave:
 
 
 @dataclass(frozen=True)
-class Circle:
+class Circle(Periodic):
     """A circle of the given radius in the vertical x-z plane about the zero pose; starts at rest in the centre and spirals out.
 
     Seen with x to the right and z up, clockwise goes up on the left, to the right at the top, down on the right.
@@ -67,16 +71,6 @@ class Circle:
     clockwise: bool = True
     ramp_periods: float = 3.0
     measured_periods: float = 5.0
-
-    @property
-    def start(self) -> float:
-        """Time from which is measured (s)."""
-        return self.ramp_periods * self.period
-
-    @property
-    def end(self) -> float:
-        """Time to which is measured (s)."""
-        return (self.ramp_periods + self.measured_periods) * self.period
 
     def displacement(self, t):
         """Displacement (n, 3) in m and velocity (n, 3) in m/s of the platform at the times t (n,)."""
