@@ -315,8 +315,7 @@ class Mooring:
         )
         if status != explicit.DONE:
             cause = {
-                explicit.RUNAWAY: "ran away (speeds that nothing here can cause, or tensions that collapse) even with a step of "
-                f"{self.step_limit.dt / explicit.FINEST:.3g} s",
+                explicit.RUNAWAY: f"ran away (speeds that nothing here can cause) even with a step of {self.step_limit.dt / explicit.FINEST:.3g} s",
                 explicit.OVERSTRETCHED: f"stretches a line by more than {100.0 * self._state.settings[5]:.0f} % of its length",
                 explicit.TOO_LONG: f"needs more than {explicit.MOST_STEPS:g} steps of {self.step_limit.dt:.3g} s; expected shorter intervals",
                 explicit.TOO_FAST: f"moves the platform faster than {FASTEST:g} m/s",

@@ -21,6 +21,7 @@ OWN_TENSION_ITERATIONS = 60  # and one more for each segment of the longest line
 DOWNHILL_ITERATIONS = 150
 SOFT_STRAINS, SOFT_TOLERANCE = (0.1, 0.01), 1e-4  # under the line's weight; of the weight
 LEAST_DAMPING = 1e-13
+STIFFNESS_DAMPING = 1e-10  # carries slack parts where the stiffness is read
 SMALLEST_SHARE = 0.01  # of a step
 LONGEST_MOVE = 0.3  # of the longest line's length, in one step
 STRAIN_SCALE = 10.0  # a strain of 10 % counts like a force of the line's weight
@@ -226,10 +227,7 @@ class StaticSolver:
     def _step(self, state, damping):
         """Newton step (3, n) of the nodes, or None when the system is singular."""
         model = self.model
-        fill_tangent(model, state, self.diagonal, self.above, self.below)
-        for k in range(3):
-            self.diagonal[:, k, k] += damping * self.scale
-        points = self.condense(state)
+        points = self._condensed_tangent(state, damping)
         if points is None:
             return None
         stiffness, load = points
@@ -247,9 +245,12 @@ class StaticSolver:
         self.move[:, model.point_node] = x.T
         return self.move.copy() if np.isfinite(self.move).all() else None
 
-    def condense(self, state):
-        """(3P, 3P) stiffness between all points and (3P,) loads on them, lines eliminated; None when singular."""
+    def _condensed_tangent(self, state, damping):
+        """(3P, 3P) damped stiffness between all points and (3P,) loads on them, lines eliminated; None when singular."""
         model = self.model
+        fill_tangent(model, state, self.diagonal, self.above, self.below)
+        for k in range(3):
+            self.diagonal[:, k, k] += damping * self.scale
         if not condense_lines(
             model, self.diagonal, self.above, self.below, state.force, self.c, self.a, self.g, self.ends, self.end_load, self.work
         ):
@@ -314,10 +315,7 @@ class StaticSolver:
         if not model.coupled_points.size:
             return np.zeros((6, 6))
         _evaluate_at_rest(model, state, scratch)
-        fill_tangent(model, state, self.diagonal, self.above, self.below)
-        for k in range(3):
-            self.diagonal[:, k, k] += 1e-10 * self.scale
-        stiffness, load = self.condense(state)
+        stiffness, _ = self._condensed_tangent(state, STIFFNESS_DAMPING)
         free = _free_dofs(model)
         held = np.concatenate([np.arange(3 * p, 3 * p + 3) for p in model.coupled_points])
         reduced = stiffness[np.ix_(held, held)]
