@@ -3,9 +3,9 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from mooring_ros.offline.plots import COLOURS, force_unit
+from mooring_ros.offline.plots import COLOURS, force_unit, style_axis
 
-_INK, _FAINT, _WATER, _BED = "#1c2530", "#51606f", "#7fb3d5", "#a58e6b"
+_FAINT, _WATER, _BED = "#51606f", "#7fb3d5", "#a58e6b"
 _WIDTH = 9.6  # inches
 _MOMENT_STYLES = (
     {"color": _FAINT, "linestyle": "--", "linewidth": 1.3},
@@ -37,7 +37,7 @@ def wrench_figure(times, wrenches):
             axis.plot(times, values / divisor, color=COLOURS[column], linewidth=1.2)
             axis.set_ylabel(f"${letter}_{direction}$ ({prefix[:-1]}{unit})")
             axis.set_xlim(times[0], times[-1])
-            _plain(axis)
+            style_axis(axis)
             if np.ptp(values) < 1e-6 * np.abs(wrenches[:, 3 * column : 3 * column + 3]).max():
                 axis.set_ylim(values.mean() / divisor - 1.0, values.mean() / divisor + 1.0)
     for axis in axes[-1]:
@@ -74,8 +74,8 @@ def extremes_figure(names, moments, depth):
         side.set(ylabel="z (m)", ylim=(-1.12 * depth, 0.1 * depth))
         along.set(ylabel=f"tension ({unit})")
         along.margins(x=0.0)
-        _plain(side, name)
-        _plain(along)
+        style_axis(side, name)
+        style_axis(along)
     reach = max(np.ptp(nodes[:, :2] @ _heading(nodes)) for nodes, _ in reference.values())
     suspended = max(_suspended(nodes, depth) for shapes in moments.values() for nodes, _ in shapes.values())
     axes[-1, 0].set(xlabel="distance from the fairlead at the start (m)", xlim=(-0.05 * reach, min(reach, 1.3 * suspended)))
@@ -96,7 +96,7 @@ def round_trip_figure(times, round_trips):
     often.set_xscale("log")
     often.set(xlabel="round trip (ms)", ylabel="samples")
     for axis in (over_time, often):
-        _plain(axis)
+        style_axis(axis)
     ticks = [value for value in (0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000) if edges[0] <= value <= edges[-1]]
     for axis in (over_time.yaxis, often.xaxis):
         axis.set_ticks(ticks, [f"{value:g}" for value in ticks])
@@ -118,17 +118,5 @@ def _suspended(nodes, depth):
 def _axes(height):
     figure = Figure(figsize=(_WIDTH, height), layout="constrained")
     axis = figure.subplots()
-    _plain(axis)
+    style_axis(axis)
     return figure, axis
-
-
-def _plain(axis, title=None):
-    axis.grid(True, color="#e4e9ef", linewidth=0.7)
-    axis.set_axisbelow(True)
-    axis.spines[["top", "right"]].set_visible(False)
-    axis.spines[["left", "bottom"]].set_color("#aab6c3")
-    axis.tick_params(colors=_FAINT, labelsize=8, length=3)
-    for label in (axis.xaxis.label, axis.yaxis.label):
-        label.set(color=_INK, fontsize=9)
-    if title:
-        axis.set_title(title, loc="left", fontsize=10, color=_INK)

@@ -203,7 +203,8 @@ def _thinned(x, y):
     return x[kept], y[kept]
 
 
-def _plain(axis, title=None):
+def style_axis(axis, title=None):
+    """The look of every axis here and in the demo's figures."""
     axis.grid(True, color="#e4e9ef", linewidth=0.7)
     axis.set_axisbelow(True)
     axis.spines[["top", "right"]].set_visible(False)
@@ -211,9 +212,13 @@ def _plain(axis, title=None):
     axis.tick_params(colors=_FAINT, labelsize=8, length=3)
     axis.xaxis.label.set(color=_INK, fontsize=9)
     axis.yaxis.label.set(color=_INK, fontsize=9)
-    axis.ticklabel_format(useOffset=False)
     if title:
         axis.set_title(title, loc="left", fontsize=10, color=_INK)
+
+
+def _plain(axis, title=None):
+    style_axis(axis, title)
+    axis.ticklabel_format(useOffset=False)
 
 
 def _steady(axis):
