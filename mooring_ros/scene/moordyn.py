@@ -50,7 +50,7 @@ def parse_scene(text: str, path: str | os.PathLike = "scene") -> Scene:
         raise SceneError(file, line, "the water depth is missing, expected an option like '200 WtrDpth' (m): it has no default")
     environment = _environment(options)
     warnings += check_points(file, points, lines, environment.depth)
-    return Scene(file, text, line_types, points, lines, environment, options, tuple(warnings))
+    return Scene(file, text, line_types, points, lines, environment, options=options, warnings=tuple(warnings))
 
 
 def _read_text(file: str) -> str:
