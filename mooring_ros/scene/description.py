@@ -4,6 +4,7 @@ Positions are in metres, z up from the still water level, at the platform's zero
 ``source_line`` is the line of the file (from 1) that an object was read from, 0 when it came from no file.
 """
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -27,6 +28,7 @@ PAPER = "paper"  # 2/l sin of half the turning angle, twice that at clamped ends
 REGULAR = "regular"
 JONSWAP = "jonswap"
 ELEVATION = "elevation"  # components of a given surface elevation
+COMPONENTS = "components"  # given components
 
 
 @dataclass(frozen=True)
@@ -86,7 +88,8 @@ class Body:
 
 @dataclass(frozen=True)
 class Rod:
-    """A rigid rod from end A to end B; of length zero it is a joint that passes moments on."""
+    """A rigid rod from end A to end B. Without segments it has no length and stands at end A, where it passes moments on:
+    fixed it holds lines in the direction from end A to end B, free it is a joint whose direction comes from its lines."""
 
     id: int
     type: RodType
@@ -100,6 +103,10 @@ class Rod:
     @property
     def name(self) -> str:
         return f"rod{self.id}"
+
+    @property
+    def length(self) -> float:  # m
+        return math.dist(self.end_a, self.end_b) if self.segments else 0.0
 
 
 @dataclass(frozen=True)
@@ -176,14 +183,15 @@ class Friction:
     static_transverse: float
     kinetic_axial: float
     kinetic_transverse: float
-    ramp: float = 1e6  # c_v of the saturated law, N s/m
+    ramp: float = 1e6  # c_v of the saturated law, N s/m: force = static coefficient times ramp times speed, up to the static limit
+    isotropic: bool = False  # the saturated law takes the velocity along the bed as a whole, as MoorDyn-C does
 
 
 @dataclass(frozen=True)
 class Waves:
     """A sea of linear waves in one direction."""
 
-    kind: str  # "regular", "jonswap" or "elevation"
+    kind: str  # "regular", "jonswap", "elevation" or "components"
     height: float = 0.0  # m: H of a regular wave, Hs of a spectrum
     period: float = 0.0  # s: T or Tp
     direction: float = 0.0  # rad: where the waves run, from x towards y
@@ -191,7 +199,8 @@ class Waves:
     seed: int = 1  # of the phases
     components: int = 100  # of the spectrum
     phase: float = 0.0  # rad, of a regular wave: elevation H/2 cos(w t - k x - phase)
-    elevation: tuple[tuple[float, float], ...] = ()  # (s, m) at the origin, evenly spaced
+    elevation: tuple[tuple[float, float], ...] = ()  # (s, m) at the origin, evenly spaced from 0 s
+    spectrum: tuple[tuple[float, float, float], ...] = ()  # components (rad/s, m, rad): elevation = sum of a cos(w t - k x - phase)
     ramp: float = 0.0  # s, over which the waves grow from nothing
 
 
@@ -199,7 +208,7 @@ class Waves:
 class Environment:
     """Gravity, water and seabed. The still water's surface is z = 0, a flat bed is z = -depth."""
 
-    depth: float  # m
+    depth: float  # m, at the origin
     gravity: float = 9.80665  # m/s^2
     water_density: float = 1025.0  # kg/m^3
     bed_stiffness: float = 3.0e6  # kBot, Pa/m
@@ -229,6 +238,7 @@ class Scene:
     bending: str = ANGLE  # measure of curvature: "angle" or "paper"
     options: Mapping[str, object] = field(default_factory=dict, hash=False)  # everything else that was read, by its usual name
     warnings: tuple[str, ...] = ()  # what was read and is not used, and why
+    files: tuple[tuple[str, str], ...] = ()  # the other files that it was read from: name as written in the scene, content
 
     def point(self, id: int) -> Point:
         """The point with this ID; KeyError when there is none."""
