@@ -126,8 +126,8 @@ def _piece(table, first, last, value):
 
 
 @stage
-def _stretched(position, i):
-    dx, dy, dz = position[0, i] - position[0, i - 1], position[1, i] - position[1, i - 1], position[2, i] - position[2, i - 1]
+def _stretched(x, y, z, i):
+    dx, dy, dz = x[i + 1] - x[i], y[i + 1] - y[i], z[i + 1] - z[i]
     return np.sqrt(dx * dx + dy * dy + dz * dz)
 
 
@@ -141,10 +141,11 @@ def rope_tensions(ropes, step, position, inverse_length, damping, length_rate, t
     is in 0..1 for every z. Zero: the plain law; SETTLED: the law at rest, whatever `creep` is. `position` (3, n), m; `inverse_length` (n,),
     1/m; `damping` (n,): BA/l, N s/m; `length_rate` (n,), m/s; `creep` (n,).
     """
+    x, y, z = position[0], position[1], position[2]
     for c in range(ropes.curve_first.size):
         first = ropes.curve_first[c]
         for i in range(first, first + ropes.curve_count[c]):
-            strain = _stretched(position, i) * inverse_length[i] - 1.0
+            strain = _stretched(x, y, z, i - 1) * inverse_length[i] - 1.0
             row = _piece(ropes.strain, ropes.curve_row[c], ropes.curve_row[c + 1] - 1, strain)
             pull = ropes.load[row] + ropes.slope[row] * (strain - ropes.strain[row]) + damping[i] * length_rate[i]
             tension[i] = max(pull, 0.0) if strain > 0.0 else 0.0
@@ -157,15 +158,19 @@ def rope_tensions(ropes, step, position, inverse_length, damping, length_rate, t
         taut = 1.0 / (damper + taut_ahead * stiffness)
         share = (slow_damper + taut_ahead * slow) * taut  # of the fast element's force that the slow one lets through
         slack = slow / (slow_damper + slack_ahead * slow)
-        first = ropes.kelvin_first[k]
-        for i in range(first, first + ropes.kelvin_count[k]):
-            strain = _stretched(position, i) * inverse_length[i] - 1.0
-            damping_force = fast_damper * inverse_length[i] * length_rate[i]
-            rate = taut * (damping_force + fast * strain - stiffness * creep[i])
-            pull = slow * (creep[i] + taut_ahead * rate) + slow_damper * rate
-            pulls = (pull > max(share * damping_force, 0.0)) & (strain > 0.0)
-            tension[i] = pull if pulls else 0.0
-            creep_rate[i] = rate if pulls else -slack * creep[i]
+        first, last = ropes.kelvin_first[k], ropes.kelvin_first[k] + ropes.kelvin_count[k]
+        # views from the first segment on: without an offset in the index the loop is vectorized
+        x, y, z = position[0, first - 1 : last], position[1, first - 1 : last], position[2, first - 1 : last]
+        inverse, stretching = inverse_length[first:last], length_rate[first:last]
+        pulls, strain_1, rate_1 = tension[first:last], creep[first:last], creep_rate[first:last]
+        for i in range(last - first):
+            strain = _stretched(x, y, z, i) * inverse[i] - 1.0
+            damping_force = fast_damper * inverse[i] * stretching[i]
+            rate = taut * (damping_force + fast * strain - stiffness * strain_1[i])
+            pull = slow * (strain_1[i] + taut_ahead * rate) + slow_damper * rate
+            tight = (pull > max(share * damping_force, 0.0)) & (strain > 0.0)
+            pulls[i] = pull if tight else 0.0
+            rate_1[i] = rate if tight else -slack * strain_1[i]
 
 
 @kernel
