@@ -16,7 +16,8 @@ BENCHMARKS = {
     "node_latency": "the ROS 2 node: input stamp to wrench, against an empty echo node",
 }
 MODULES = {"node_latency": "latency_table"}  # where it is not the name itself
-DOCUMENT = Path(__file__).parent.parent / "docs" / "measurements.md"
+DOCS = Path(__file__).parent.parent / "docs"
+DOCUMENTS = (DOCS / "measurements.md", DOCS / "physics.md")
 
 
 def arguments(argv):
@@ -26,12 +27,24 @@ def arguments(argv):
     parser.add_argument("names", nargs="*", metavar="NAME", help="which; all when none is named")
     parser.add_argument("--quick", action="store_true", help="fewer settings, shorter runs; figures are rougher")
     parser.add_argument("-o", "--output", type=Path, default=Path("out/bench"), metavar="DIR", help="where the JSON results go (default: %(default)s)")
-    parser.add_argument("--docs", action="store_true", help="put the tables into docs/measurements.md")
+    parser.add_argument("--docs", action="store_true", help="put the tables and pictures into docs/")
     chosen = parser.parse_args(argv)
     unknown = [name for name in chosen.names if name not in BENCHMARKS]
     if unknown:
         parser.error(f"no benchmark is called {unknown[0]}; there are: {', '.join(BENCHMARKS)}")
     return chosen
+
+
+def document(contents, pictures, sentence):
+    """Put tables (name -> Markdown) between their markers in the documents, and pictures (file name -> figure) beside them."""
+    texts = {path: path.read_text(encoding="utf-8") for path in DOCUMENTS}
+    for key, content in contents.items():
+        path = next((p for p, text in texts.items() if f"<!-- {key} -->" in text), DOCUMENTS[0])
+        texts[path] = tables.refresh(texts[path], key, f"{content}\n\n{sentence}")
+    for path, text in texts.items():
+        path.write_text(text, encoding="utf-8")
+    for name, figure in pictures.items():
+        figure.savefig(DOCS / "images" / name, dpi=110)
 
 
 def main(argv=None):
@@ -50,12 +63,10 @@ def main(argv=None):
             return 2
         result = module.run(chosen.quick)
         result["machine"] = facts
+        pictures = result.pop("figures", {})
         (chosen.output / f"{name}.json").write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
         if chosen.docs:
-            text = DOCUMENT.read_text(encoding="utf-8")
-            for key, content in result["tables"].items():
-                text = tables.refresh(text, key, f"{content}\n\n{machine.sentence(facts)}")
-            DOCUMENT.write_text(text, encoding="utf-8")
+            document(result["tables"], pictures, machine.sentence(facts))
         for miss in result["failed"]:
             print(f"MISSED: {miss}", flush=True)
         failed += result["failed"]

@@ -8,7 +8,9 @@ What its users run into, and what is done about it here:
 - Tensions are those of the last evaluation of the derivatives, which for most schemes is not the end of the step
   (``EVALUATED_AT``).
 - ``GetLineFairTen`` is the tension of the end segment, damping included; no weight, drag or inertia of the half segment.
-- Decks are split at blanks only, so no tabs are written. Output files and the time on the console are switched off.
+- A rod without segments takes its direction from its lines, also when it is coupled: an end that is to be clamped needs a rod with a length.
+- The initial state that it finds by itself (from 2.7 on) need not be one: of the RM3 cable it is 8 m off. ``ICgenDynamic`` lets the lines swing out instead.
+- Output files and the time on the console are switched off.
 """
 
 import os
@@ -19,6 +21,8 @@ from dataclasses import dataclass
 
 import moordyn
 import numpy as np
+
+from .moordyn_deck import DeckError, coupled_freedoms, deck, files
 
 # where in the last internal step the reported tension belongs, as a fraction of that step
 EVALUATED_AT = {"euler": 0.0, "leuler": 0.0, "heun": 0.0, "rk2": 0.5, "rk4": 1.0}
@@ -39,6 +43,7 @@ class PeerRun:
     cpu: float  # s of CPU time in the step calls alone
     simulated: float  # s
     steps: int  # internal time steps
+    probed: np.ndarray  # (samples, ...) what the probe gave
 
     @property
     def cost(self) -> float:
@@ -46,88 +51,92 @@ class PeerRun:
         return self.cpu / self.simulated
 
 
-def deck(scene, dt, scheme="RK2", segments=None, damping=None, options=()):
-    """The scene as MoorDyn's input text, with internal step dt (s); segments and damping (BA) override those of the file."""
-    env = scene.environment
-    if any(env.current):
-        raise PeerError("the peer deck does not carry a current")
-    rows = ["mooring_ros benchmark", "---- LINE TYPES ----"]
-    rows += ["Name Diam Mass EA BA EI Cd Ca CdAx CaAx", "(-) (m) (kg/m) (N) (N-s/-) (N-m2) (-) (-) (-) (-)"]
-    for k in scene.line_types:
-        ba = k.damping if damping is None else damping
-        values = (k.diameter, k.mass, k.stiffness, ba, k.bending_stiffness, k.drag_normal, k.added_mass_normal, k.drag_axial, k.added_mass_axial)
-        rows.append(" ".join([k.name, *map(repr, map(float, values))]))
-    rows += ["---- POINTS ----", "ID Type X Y Z M V CdA Ca", "(#) (-) (m) (m) (m) (kg) (m3) (m2) (-)"]
-    for p in scene.points:
-        values = (*p.position, p.mass, p.volume, p.drag_area, p.added_mass)
-        rows.append(" ".join([str(p.id), p.kind.capitalize(), *map(repr, map(float, values))]))
-    rows += ["---- LINES ----", "ID Type A B Len N Out", "(#) (-) (#) (#) (m) (-) (-)"]
-    for n in scene.lines:
-        rows.append(f"{n.id} {n.type.name} {n.end_a} {n.end_b} {float(n.length)!r} {segments or n.segments} -")
-    rows += ["---- OPTIONS ----", f"{float(dt)!r} dtM", f"{scheme} tScheme"]
-    rows += [f"{env.gravity!r} g", f"{env.water_density!r} WtrDnsty", f"{env.depth!r} WtrDpth"]
-    rows += [f"{env.bed_stiffness!r} kBot", f"{env.bed_damping!r} cBot"]
-    rows += ["2.0 dtIC", "200 TmaxIC", "1e-5 threshIC", "4 CdScaleIC", "0 writeLog", "1 disableOutput", "1 disableOutTime"]
-    rows += [*options, "---- END ----", ""]
-    return "\n".join(rows)
-
-
-def coupled_positions(scene):
-    """Positions (points, 3) in m of the coupled points at the platform's zero pose, in the file's order."""
-    return np.array([p.position for p in scene.points if p.kind == "coupled"])
-
-
-def run(scene, motion, dt, scheme="RK2", segments=None, damping=None, steps_per_call=1, sample=0.05, options=(), until=None):
+def run(scene, motion, dt, scheme="RK2", segments=None, damping=None, steps_per_call=1, sample=0.05, options=(), until=None, probe=None, friction=True):
     """Run MoorDyn from rest to the motion's end; tensions every ``sample`` s, rounded to whole calls.
 
-    ``motion.displacement(t)`` moves all coupled points alike. Raises PeerError when MoorDyn fails or returns no number.
+    ``motion.displacement(t)`` moves all coupled points and rods alike. ``probe(lines)`` is called with MoorDyn's line objects at each sample.
+    Raises PeerError when MoorDyn fails or returns no number.
     """
     end = until or motion.end
     dt = float(dt)
     call = dt * steps_per_call
     calls = int(np.ceil(end / call - 1e-9))
-    edges = call * np.arange(calls + 1)
-    moved, _ = motion.displacement(edges)
-    at = (coupled_positions(scene)[None] + moved[:, None]).reshape(calls + 1, -1)
-    chord = np.diff(at, axis=0) / call
-    positions, velocities = at[:-1].tolist(), chord.tolist()  # ready before the clock starts
     every = max(1, round(sample / call))
 
     with tempfile.TemporaryDirectory(prefix="moordyn_") as folder, _silence():
-        path = os.path.join(folder, "lines.txt")
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(deck(scene, dt, scheme, segments, damping, options))
-        system = moordyn.Create(path)
+        try:
+            texts = {"lines.txt": deck(scene, dt, scheme, segments, damping, options, friction), **files(scene)}
+            drive = _Drive(scene, motion, call, calls)
+        except DeckError as error:
+            raise PeerError(str(error)) from None
+        for name, text in texts.items():
+            with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                file.write(text)
+        system = moordyn.Create(os.path.join(folder, "lines.txt"))
         if system is None:
             raise PeerError("MoorDyn refused the deck")
         try:
             moordyn.SetVerbosity(system, moordyn.LEVEL_NONE)
-            if moordyn.Init(system, at[0].tolist(), [0.0] * at.shape[1]) != 0:
+            if moordyn.Init(system, drive.start, [0.0] * len(drive.start)) != 0:
                 raise PeerError("MoorDyn found no initial state")
             lines = [moordyn.GetLine(system, n.id) for n in scene.lines]
-            return _advance(system, lines, positions, velocities, edges, call, dt, scheme, every)
+            return _advance(system, lines, drive, dt, scheme, every, probe)
         finally:
             moordyn.Close(system)
 
 
-def _advance(system, lines, positions, velocities, edges, call, dt, scheme, every):
-    times, tensions = [], []
+class _Drive:
+    """Where the coupled points and rods stand at the edges of the calls, and the chords between them, block by block."""
+
+    BLOCK = 20000  # calls
+
+    def __init__(self, scene, motion, call, calls):
+        self.motion, self.call, self.calls = motion, call, calls
+        places, self.freedoms = coupled_freedoms(scene)
+        self.columns = np.array([first + k for first, _ in places for k in range(3)], dtype=int)
+        self.zero = np.zeros(self.freedoms)
+        self.zero[self.columns] = np.array([place for _, place in places]).ravel()
+        self.start = self.at(np.zeros(1))[0].tolist()
+
+    def at(self, times):
+        """Freedoms (times, freedoms); only the first three of a rod move."""
+        moved, _ = self.motion.displacement(times)
+        values = np.repeat(self.zero[None], len(times), axis=0)
+        values[:, self.columns] += np.tile(moved, len(self.columns) // 3)
+        return values
+
+    def blocks(self):
+        """Lists of (time, freedoms, their rates) of the calls, a block at a time."""
+        for first in range(0, self.calls, self.BLOCK):
+            edges = self.call * np.arange(first, min(first + self.BLOCK, self.calls) + 1)
+            at = self.at(edges)
+            yield list(zip(edges[:-1].tolist(), at[:-1].tolist(), (np.diff(at, axis=0) / self.call).tolist(), strict=True))
+
+
+def _advance(system, lines, drive, dt, scheme, every, probe):
+    times, tensions, probed = [], [], []
     step, tension = moordyn.Step, moordyn.GetLineFairTen
     late = (1.0 - EVALUATED_AT.get(scheme.lower(), 1.0)) * dt
-    began = time.process_time()
+    done, cpu, now = 0, 0.0, 0.0
     try:
-        for k in range(len(positions)):
-            step(system, positions[k], velocities[k], edges[k], call)
-            if (k + 1) % every == 0:
-                times.append(edges[k + 1] - late)
-                tensions.append([tension(n) for n in lines])
+        for block in drive.blocks():
+            began = time.process_time()
+            for now, position, velocity in block:
+                step(system, position, velocity, now, drive.call)
+                done += 1
+                if done % every == 0:
+                    times.append(now + drive.call - late)
+                    tensions.append([tension(n) for n in lines])
+                    if probe is not None:
+                        probed.append(probe(lines))
+            cpu += time.process_time() - began
     except (RuntimeError, ValueError) as error:
-        raise PeerError(f"MoorDyn stopped at {edges[k]:.3f} s: {error}") from None
-    cpu = time.process_time() - began
+        raise PeerError(f"MoorDyn stopped at {now:.3f} s: {error}") from None
     tensions = np.array(tensions)
     if not np.all(np.isfinite(tensions)):
         raise PeerError("MoorDyn returned no number")
-    return PeerRun(np.array(times), tensions, cpu, float(edges[-1]), round(edges[-1] / dt))
+    simulated = drive.calls * drive.call
+    return PeerRun(np.array(times), tensions, cpu, simulated, round(simulated / dt), np.array(probed))
 
 
 class _silence:
