@@ -17,7 +17,7 @@ class History:
     fairlead_end_force: np.ndarray  # (k, lines, 3) N
     stretched_length: np.ndarray  # (k, lines) m
     length_rate: np.ndarray  # (k, lines) m/s
-    coupled_wrenches: np.ndarray  # (k, coupled points, 6) N, N m
+    coupled_wrenches: np.ndarray  # (k, outputs, 6) N, N m: at each coupled point, rod and body
 
     @classmethod
     def of(cls, times, readings):
@@ -31,10 +31,5 @@ class History:
             fairlead_end_force=readings.end_force[:, :, 1],
             stretched_length=readings.length,
             length_rate=readings.length_rate,
-            coupled_wrenches=with_moments(readings.coupled_force),
+            coupled_wrenches=readings.coupled,
         )
-
-
-def with_moments(forces):
-    """Wrenches (..., 6) of pinned points from their forces (..., 3)."""
-    return np.concatenate([forces, np.zeros_like(forces)], axis=-1)

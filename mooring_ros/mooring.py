@@ -10,6 +10,7 @@ from .arguments import checked_poses, checked_twists, numbers, shaped
 from .core import explicit
 from .core.forces import evaluate_once
 from .core.guard import FASTEST
+from .core.layout import Layout
 from .core.linear import LinearResponse, linearise
 from .core.model import LOOSE, State, build, new_scratch, new_state
 from .core.readings import new_readings, observe
@@ -17,7 +18,7 @@ from .core.schemes import step_table
 from .core.stability import step_limit
 from .core.statics import StaticSolver
 from .errors import MooringError
-from .history import History, with_moments
+from .history import History
 from .scene import Scene, load_scene
 
 FIDELITIES = ("dynamic", "quasi_static", "linear")
@@ -63,8 +64,9 @@ class Mooring:
         self.scene = scene if isinstance(scene, Scene) else load_scene(Path(scene))
         self.fidelity = fidelity
         self.solver = "explicit"
-        self._model, ends = build(self.scene, None if segments is None else int(segments))
-        self._identity = hashlib.sha256(b"".join(np.asarray(part).tobytes() for part in self._model)).hexdigest()
+        layout = Layout(self.scene)
+        self._model, ends = build(self.scene, None if segments is None else int(segments), layout)
+        self._identity = hashlib.sha256(b"".join(_bytes(self._model))).hexdigest()
         self._state = new_state(self._model, ends)
         self._scratch = new_scratch(self._model)
         self._statics = StaticSolver(self.scene, self._model)
@@ -80,7 +82,7 @@ class Mooring:
         self._linear = None
         self.line_names = [line.name for line in self.scene.lines]
         self.segments = [int(count) for count in self._model.segments]  # of each line
-        self.coupled_names = [self.scene.points[p].name for p in self._model.coupled_points]
+        self.coupled_names = layout.outputs  # coupled points, rods and bodies
         self.static_result = None
 
     # -- doing ------------------------------------------------------------------------------------------------------------------------
@@ -216,8 +218,8 @@ class Mooring:
 
     @property
     def coupled_wrenches(self):
-        """(coupled points, 6) N and N m on the platform at each coupled point, world frame; lines are pinned, so the moments are zero."""
-        return with_moments(self._shown.coupled_force[0])
+        """(outputs, 6) N and N m on the platform at each coupled point, rod (at its end A) and body, world frame, as in `coupled_names`."""
+        return self._shown.coupled[0].copy()
 
     @property
     def stretched_length(self):
@@ -380,6 +382,12 @@ class Mooring:
 
 def _rows(readings, rows):
     return type(readings)(*(array[rows] for array in readings))
+
+
+def _bytes(model):
+    """The bytes of all numbers in a model, one after another."""
+    for part in model:
+        yield from _bytes(part) if isinstance(part, tuple) else (np.asarray(part).tobytes(),)
 
 
 def _copy(state):

@@ -8,6 +8,7 @@ from .guard import EVEN, FASTEST, IMPLAUSIBLE, TORN, UNEVEN, keep_tension, overs
 from .platform import start_motion
 from .points import place_coupled_points, place_staggered_coupled_points, speed_coupled_points
 from .readings import show
+from .rigid import copy_parts, euler_parts, mix_parts
 from .schemes import LEAPFROG
 from .seabed import set_bed_relief
 from .surface import all_wet, reaches_above
@@ -68,6 +69,7 @@ def start_step(model, state, scratch):
         for i in range(model.size):
             scratch.position[k, i] = state.position[k, i]
             scratch.velocity[k, i] = state.velocity[k, i]
+    copy_parts(state.parts, scratch.parts)
 
 
 @stage
@@ -77,6 +79,7 @@ def euler_stage(model, state, h):
         for i in range(model.size):
             position[k, i] += h * velocity[k, i]
             velocity[k, i] += h * acceleration[k, i]
+    euler_parts(model, state, h, False)
 
 
 @stage
@@ -89,6 +92,8 @@ def last_stage(model, state, scratch, h, stages):
         for i in range(model.size):
             position[k, i] = old * scratch.position[k, i] + new * (position[k, i] + h * velocity[k, i])
             velocity[k, i] = old * scratch.velocity[k, i] + new * (velocity[k, i] + h * acceleration[k, i])
+    euler_parts(model, state, h, False)
+    mix_parts(model, state, scratch.parts, old)
 
 
 @stage
@@ -98,6 +103,13 @@ def leapfrog_stage(model, state, h):
         for i in range(model.size):
             velocity[k, i] += h * acceleration[k, i]
             position[k, i] += h * velocity[k, i]
+    euler_parts(model, state, h, True)
+
+
+@stage
+def set_time(state, scratch, s):
+    """Tell the evaluations that they stand at s in 0..1 of the interval."""
+    state.settings[6] = state.clock[0] + s * scratch.motion[7, 0]
 
 
 @stage
@@ -111,20 +123,23 @@ def take_steps(model, state, scratch, evaluations, h, steps, start, ds):
     for j in range(steps):
         if evaluations != LEAPFROG:
             start_step(model, state, scratch)
+        end = start + (j + 1) * ds
         for k in range(evaluations):
-            end = start + (j + 1) * ds
+            now = end
             if evaluations == LEAPFROG:
                 keep_tension(model, state, scratch)
                 leapfrog_stage(model, state, h)
                 place_staggered_coupled_points(model, state, scratch.motion, end, h)
             elif k < evaluations - 1:
                 part = 1.0 / (evaluations - 1)
+                now = end - ds * (evaluations - 2 - k) * part
                 euler_stage(model, state, h * part)
-                speed_coupled_points(model, state, scratch.motion, end - ds * (evaluations - 2 - k) * part, h * part)
+                speed_coupled_points(model, state, scratch.motion, now, h * part)
             else:
                 keep_tension(model, state, scratch)
                 last_stage(model, state, scratch, h / (evaluations - 1), evaluations)
                 place_coupled_points(model, state, scratch.motion, end)
+            set_time(state, scratch, now)
             evaluate(model, state, scratch, state.settings[0], state.settings[1], state.settings[2] != 0.0)
         worst = max(worst, tension_jumped(model, state, scratch, JUMP))
     return worst
@@ -151,13 +166,18 @@ def advance(model, state, scratch, table, time, pose, twist, report):
     previous = (settings[0], settings[1], settings[2], settings[3], settings[4])
     if not duration <= MOST_STEPS * largest:
         return TOO_LONG
+    a = state.acceleration_of_platform
+    mean_before = (a[0], a[1], a[2], a[3], a[4], a[5])
+    share = min(duration / smallest, 1.0)  # samples closer than a step share one mean: their differences are noise
+    for i in range(6):
+        a[i] += share * ((twist[i] - state.twist[i]) / duration - a[i])
     chunks = int(np.ceil(duration / (CHUNK * largest)))
     span = duration / chunks
     evaluations_taken, steps_taken, retries, shortest = 0.0, 0, 0, duration
     for chunk in range(chunks):
         start = chunk / chunks
         source = min(chunk, 1)
-        save(model, state, scratch.saved[source])
+        save(model, state, scratch, source)
         refined, again = settings[3], False
         while True:
             row, steps = choose_step(table, span, refined)
@@ -165,6 +185,7 @@ def advance(model, state, scratch, table, time, pose, twist, report):
             adapt(model, state, h / table[row, 2])
             look_at_surface(model, state, SURFACE_MARGIN + span * max(LIKELY_SPEED, ends))
             if again:
+                set_time(state, scratch, start)
                 evaluate_again(model, state, scratch)
             tensions = take_steps(model, state, scratch, int(table[row, 0]), h, steps, start, 1.0 / (steps * chunks))
             evaluations_taken += steps * table[row, 0]
@@ -172,12 +193,15 @@ def advance(model, state, scratch, table, time, pose, twist, report):
             again = refined < FINEST if wild or tensions == TORN else tensions == UNEVEN and refined < MOST_REFINED
             if not again:
                 break
-            recall(model, state, scratch.saved[source])
+            recall(model, state, scratch, source)
             refined *= 2.0
             retries += 1
         torn = overstretched(model, state, settings[5])
         if wild or torn:
-            recall(model, state, scratch.saved[0])
+            recall(model, state, scratch, 0)
+            set_time(state, scratch, 0.0)
+            for i in range(6):
+                state.acceleration_of_platform[i] = mean_before[i]
             settings[0], settings[1], settings[2], settings[3], settings[4] = previous
             set_bed_relief(model, state, settings[1])
             if settings[2] == 0.0:
@@ -193,9 +217,7 @@ def advance(model, state, scratch, table, time, pose, twist, report):
             settings[3], settings[4] = 0.5 * refined, now + REFINED_STEPS * largest
     for i in range(7):
         state.pose[i] = pose[i]
-    share = min(duration / smallest, 1.0)  # samples closer than a step share one mean: their differences are noise
     for i in range(6):
-        state.acceleration_of_platform[i] += share * ((twist[i] - state.twist[i]) / duration - state.acceleration_of_platform[i])
         state.twist[i] = twist[i]
     state.clock[0] = time
     report[0], report[1], report[2], report[3] = evaluations_taken, steps_taken, retries, shortest

@@ -1,8 +1,9 @@
-"""One evaluation of the equations of motion: the stages in their order."""
+"""One evaluation of the equations of motion: the stages in their order. What a scene does not contain is skipped."""
 
 from .cache import kernel, stage
 from .inertia import accelerations
-from .points import carry_ends, hold_prescribed, move_free_points
+from .points import carry_ends, gather, hold_prescribed, move_free_points
+from .rigid import carry_parts, move_parts
 from .seabed import bed_contact
 from .surface import wet_shares
 from .tension import pull_on_nodes, segment_tensions
@@ -11,10 +12,12 @@ from .water import water_loads
 
 @stage
 def evaluate(model, state, scratch, drag_time, bed_step, surfaced):
-    """Forces and accelerations of all nodes from positions and velocities; prescribed points must stand in place.
+    """Forces and accelerations of all nodes and parts from positions and velocities; prescribed points must stand in place.
 
     `drag_time` (s): see `water_loads`; `bed_step` (s): see `bed_contact`. `surfaced`: some of the mooring may be above water. Otherwise `state.wet` must be ones.
     """
+    if model.rigid.mass.size > 0:
+        carry_parts(model, state)
     carry_ends(model, state)
     segment_tensions(model, state)
     pull_on_nodes(model, state)
@@ -23,7 +26,11 @@ def evaluate(model, state, scratch, drag_time, bed_step, surfaced):
     water_loads(model, state, drag_time)
     bed_contact(model, state, bed_step)
     accelerations(model, state)
-    move_free_points(model, state)
+    if model.free_points.size + model.rigid.mass.size > 0:
+        gather(model, state, scratch.load)
+        move_free_points(model, state, scratch.load)
+    if model.rigid.mass.size > 0:
+        move_parts(model, state, scratch)
     hold_prescribed(model, state)
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 
 from .cache import stage
+from .rigid import copy_parts
 
 EVEN, UNEVEN, TORN = 0, 1, 2
 IMPLAUSIBLE = 10.0  # times the speed that anything in the scene should reach: beyond, a step has blown up
@@ -44,19 +45,24 @@ def overstretched(model, state, strain):
 
 
 @stage
-def save(model, state, copy):
+def save(model, state, scratch, place):
+    """Keep what moves, in the first (0) or second (1) place."""
+    copy = scratch.saved[place]
     for k in range(3):
         for i in range(model.mass.size):
             copy[k, i] = state.position[k, i]
             copy[3 + k, i] = state.velocity[k, i]
+    copy_parts(state.parts, scratch.saved_parts[place])
 
 
 @stage
-def recall(model, state, copy):
+def recall(model, state, scratch, place):
+    copy = scratch.saved[place]
     for k in range(3):
         for i in range(model.mass.size):
             state.position[k, i] = copy[k, i]
             state.velocity[k, i] = copy[3 + k, i]
+    copy_parts(scratch.saved_parts[place], state.parts)
 
 
 @stage

@@ -1,9 +1,10 @@
 """Scene -> Model (constant arrays) and State (changing arrays).
 
 All nodes of all lines stand one after the other in one structure of arrays, each line's end nodes its own; between lines lies a null
-segment (no stiffness, not counted in tangents). Every point of the scene is a node as well. Free points and those with a mass, volume or
-drag of their own stand after the lines, between null segments, and the same passes serve them. Then come dummies that feel no force, up to
-a multiple of `LANES`: a pass is one plain loop over range(size) without a remainder. Points that are merely held stand beyond it.
+segment (no stiffness, not counted in tangents). Every internal point (layout.py) is a node as well. Those of a rod follow one another with
+segments without stiffness between them, so that the same passes serve lines and rods; free points and those with a mass, volume or drag of
+their own stand between null segments. Then come dummies that feel no force, up to a multiple of `LANES`: a pass is one plain loop over
+range(size) without a remainder. Points that are merely held stand beyond it.
 
 Segment i+1 joins nodes i and i+1; segment i is the one to the left of node i.
 """
@@ -12,17 +13,30 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..scene import COUPLED, FIXED
+from .layout import POINT_COUPLED, POINT_FREE, POINT_RIDING, Layout
 
 LANES = 8  # nodes: a whole number of vectors
-
-# kinds of points
-POINT_FIXED, POINT_COUPLED, POINT_FREE = 0, 1, 2
 LOOSE = -1  # an end that nothing holds any more
 
 
+class Rigid(NamedTuple):
+    """Rigid parts that move by themselves: B = parts, R = internal points that ride on them. Axes of the part about its origin unless said."""
+
+    mass: np.ndarray  # (B,) kg, of what stands in `inertia`
+    centre: np.ndarray  # (B, 3) m, of that mass
+    inertia: np.ndarray  # (B, 3, 3) kg m^2
+    added_surplus: np.ndarray  # (B, 3, 3) kg m^2: what lumps of added mass on rods have too much, when wet
+    pin: np.ndarray  # (B,) internal point that carries the origin, or -1
+    hull: np.ndarray  # (B,) internal point of the body's own volume, or -1
+    hull_drag: np.ndarray  # (B, 6) rho/2 CdA, kg/m and kg m^2
+    hull_added: np.ndarray  # (B, 3) rho V Ca, kg
+    riding: np.ndarray  # (R,) internal points
+    part: np.ndarray  # (P,) part of every internal point, or -1
+    start: np.ndarray  # (B, 7) m and quaternion x, y, z, w, world: where the scene puts it
+
+
 class Model(NamedTuple):
-    """What does not change. n = all nodes and one more; E = 2 x lines (end A, end B of each in turn); P = points. World frame, SI."""
+    """What does not change. n = all nodes and one more; E = 2 x lines (end A, end B of each in turn); P = internal points; O = outputs. World frame, SI."""
 
     size: int  # nodes a pass runs over: a multiple of LANES
     # segments, (n,)
@@ -59,10 +73,15 @@ class Model(NamedTuple):
     point_diameter: np.ndarray  # m, of the sphere of its volume
     free_points: np.ndarray  # indices of the free ones
     coupled_points: np.ndarray  # ... and of the coupled ones
+    output_of: np.ndarray  # the output that it belongs to, or -1
+    # outputs: coupled points, rods and bodies, (O,)
+    output_point: np.ndarray  # internal point at which its wrench is given
+    output_inertia: np.ndarray  # (O, 3, 3) kg m^2 about it, platform's axes
     # lines, (lines,)
     first_node: np.ndarray
     segments: np.ndarray
     fairlead_end: np.ndarray  # 0 or 1: which end of the line is its fairlead
+    rigid: Rigid
 
 
 class State(NamedTuple):
@@ -72,6 +91,9 @@ class State(NamedTuple):
     pose: np.ndarray  # (7,), m and quaternion x, y, z, w
     twist: np.ndarray  # (6,), m/s, rad/s, world
     acceleration_of_platform: np.ndarray  # (6,), m/s^2, rad/s^2, world: mean over the last interval, or over a step where that is longer
+    parts: np.ndarray  # (B, 13): place (m), quaternion, velocity (m/s) and spin (rad/s) of the rigid parts, world
+    parts_acceleration: np.ndarray  # (B, 6), m/s^2, rad/s^2, world
+    parts_reaction: np.ndarray  # (B, 6), N and N m of pinned parts on what carries their origin
     position: np.ndarray  # (3, n), m
     velocity: np.ndarray  # (3, n), m/s
     acceleration: np.ndarray  # (3, n), m/s^2
@@ -79,12 +101,14 @@ class State(NamedTuple):
     tangent: np.ndarray  # (3, n): unit vectors of the segments, null for null segments
     tension: np.ndarray  # (n,), N, of the segments
     strain_rate: np.ndarray  # (n,), m/s: rate of the segments' stretched length
+    stream: np.ndarray  # (3, n), m/s: velocity of the water at the nodes
+    swell: np.ndarray  # (4, n): its acceleration (m/s^2) and the surface's elevation (m); (4, 0) without waves
     wet: np.ndarray  # (n,), wet share of the nodes, 0..1
     inertia_normal: np.ndarray  # (n,), kg
     inertia_axial: np.ndarray  # (n,), kg
     bed_relief: np.ndarray  # (n,): factor on the vertical acceleration of a node in contact, 0..1
     end_point: np.ndarray  # (E,) index of the point that holds the end, or LOOSE
-    settings: np.ndarray  # (6,) drag time (s), Euler step of the bed (s), 1 if wet shares are computed; refinement of the step, kept until (s); largest strain
+    settings: np.ndarray  # (7,) drag time (s), Euler step of stiff local laws (s), 1 if wet shares are computed; refinement of the step, kept until (s); largest strain; time of the evaluation (s)
 
 
 class Scratch(NamedTuple):
@@ -96,6 +120,10 @@ class Scratch(NamedTuple):
     saved: np.ndarray  # (2, 6, n): position and velocity at the start of the interval and of the chunk
     tension: np.ndarray  # (n,), before a step's last stage
     motion: np.ndarray  # (8, 3): platform.start_motion
+    parts: np.ndarray  # (B, 13), of a step's start
+    saved_parts: np.ndarray  # (2, B, 13)
+    load: np.ndarray  # (P, 9): force (N) and inertia xx, yy, zz, xy, xz, yz (kg) of what moves with each point
+    matrix: np.ndarray  # (6, 7): equations of motion of a part
 
 
 def with_segments(scene, segments):
@@ -103,15 +131,19 @@ def with_segments(scene, segments):
     return [line.segments if segments is None else segments for line in scene.lines]
 
 
-def build(scene, segments=None):
-    """Model of `scene`; `segments` (int) overrides every line's number of segments."""
+def build(scene, segments=None, layout=None):
+    """(Model, end_point (E,)) of `scene`; `segments` (int) overrides every line's number of segments, `layout` is its Layout if there is one already."""
     counts = with_segments(scene, segments)
+    layout = layout or Layout(scene)
     line_nodes = sum(counts) + len(counts)
-    loaded = [point.kind not in _KINDS or point.mass + point.volume + point.drag_area > 0.0 for point in scene.points]
-    size = -(-(line_nodes + sum(loaded)) // LANES) * LANES
-    inside, beyond = iter(range(line_nodes, size)), iter(range(size + 1, size + 1 + len(loaded)))
-    point_nodes = [next(inside) if own else next(beyond) for own in loaded]
-    n = size + 2 + len(loaded) - sum(loaded)
+    in_rods = [p for rod in layout.rods.values() if rod.length > 0.0 for p in rod.points]
+    inside = in_rods + [p for p, place in enumerate(layout.points) if place.loaded and p not in set(in_rods)]
+    size = -(-(line_nodes + len(inside)) // LANES) * LANES
+    point_node = np.full(len(layout.points), -1, dtype=np.int64)
+    point_node[inside] = line_nodes + np.arange(len(inside))
+    beyond = np.flatnonzero(point_node < 0)
+    point_node[beyond] = size + 1 + np.arange(beyond.size)
+    n = size + 2 + beyond.size
     env = scene.environment
     rows = {
         name: np.zeros(n)
@@ -119,44 +151,70 @@ def build(scene, segments=None):
     }
     rows["inverse_length"][:] = 1.0
     rows["length"][:] = 1.0
-    rows["mass"][line_nodes + sum(loaded) : size + 1] = 1.0
+    rows["mass"][line_nodes + len(inside) : size + 1] = 1.0
 
-    point_index = {point.id: i for i, point in enumerate(scene.points)}
     end_node, end_point, first_node, fairlead_end = [], [], [], []
     start = 0
     for line, count in zip(scene.lines, counts):
         _place_line(rows, line, start, count, env)
         first_node.append(start)
         end_node += [start, start + count]
-        end_point += [point_index[line.end_a], point_index[line.end_b]]
-        kinds = [scene.point(id).kind for id in (line.end_a, line.end_b)]
-        fairlead_end.append(0 if kinds[0] == COUPLED and kinds[1] != COUPLED else 1)
+        end_point += [layout.holder(line.end_a), layout.holder(line.end_b)]
+        fairlead_end.append(0 if layout.is_coupled(line.end_a) and not layout.is_coupled(line.end_b) else 1)
         start += count + 1
-    diameters = [_place_point(rows, point, node, env) for point, node in zip(scene.points, point_nodes)]
+    for rod in layout.rods.values():
+        if rod.length > 0.0:
+            riding = [layout.points[p].kind == POINT_RIDING for p in rod.points]
+            _place_rod(rows, rod, point_node[rod.points[0]], any(riding), env)
+    diameters = [_place_point(rows, place, node, env) for place, node in zip(layout.points, point_node)]
 
-    kinds = np.array([_KINDS.get(point.kind, POINT_FREE) for point in scene.points], dtype=np.int64)
+    kinds = np.array([place.kind for place in layout.points], dtype=np.int64)
+    coupled = np.flatnonzero(kinds == POINT_COUPLED)
+    places = np.array([place.position for place in layout.points], dtype=float).reshape(-1, 3)
     model = Model(
         size=size,
         **rows,
         bed_level=-float(env.depth),
         current=np.array(env.current, dtype=float),
         natural_speed=natural_speed(scene),
-        reach=max((np.linalg.norm(point.position) for point in scene.points if point.kind == COUPLED), default=0.0),
+        reach=max(np.linalg.norm(places[coupled], axis=1), default=0.0),
         end_node=np.array(end_node, dtype=np.int64),
-        point_node=np.array(point_nodes, dtype=np.int64),
+        point_node=point_node,
         point_kind=kinds,
-        point_place=np.array([point.position for point in scene.points], dtype=float).reshape(-1, 3),
+        point_place=places,
         point_diameter=np.array(diameters, dtype=float),
         free_points=np.flatnonzero(kinds == POINT_FREE),
-        coupled_points=np.flatnonzero(kinds == POINT_COUPLED),
+        coupled_points=coupled,
+        output_of=np.array([place.attachment for place in layout.points], dtype=np.int64),
+        output_point=np.array(layout.output_point, dtype=np.int64),
+        output_inertia=np.array(layout.output_inertia, dtype=float).reshape(-1, 3, 3),
         first_node=np.array(first_node, dtype=np.int64),
         segments=np.array(counts, dtype=np.int64),
         fairlead_end=np.array(fairlead_end, dtype=np.int64),
+        rigid=_rigid(layout, kinds, env),
     )
     return model, np.array(end_point, dtype=np.int64)
 
 
-_KINDS = {FIXED: POINT_FIXED, COUPLED: POINT_COUPLED}
+def _rigid(layout, kinds, env):
+    parts, density = layout.parts, env.water_density
+
+    def rows(values, *shape, dtype=float):
+        return np.array(values, dtype=dtype).reshape(-1, *shape)
+
+    return Rigid(
+        mass=rows([part.mass for part in parts]),
+        centre=rows([part.centre for part in parts], 3),
+        inertia=rows([part.inertia for part in parts], 3, 3),
+        added_surplus=rows([density * part.added_surplus for part in parts], 3, 3),
+        pin=rows([part.pin for part in parts], dtype=np.int64),
+        hull=rows([part.hull for part in parts], dtype=np.int64),
+        hull_drag=rows([0.5 * density * np.array(part.hull_drag) for part in parts], 6),
+        hull_added=rows([density * np.array(part.hull_added) for part in parts], 3),
+        riding=np.flatnonzero(kinds == POINT_RIDING),
+        part=np.array([place.part for place in layout.points], dtype=np.int64),
+        start=rows([np.concatenate([part.position, part.turn]) for part in parts], 7),
+    )
 
 
 def natural_speed(scene):
@@ -188,12 +246,7 @@ def _place_line(rows, line, start, count, env):
     rows["tension_scale"][segments] = max(abs(submerged), 1e-5 * kind.stiffness)
 
     nodes = slice(start, start + count + 1)
-    lumped = np.full(count + 1, length)  # unstretched length that a node carries
-    lumped[[0, -1]] *= 0.5
-    rows["share_left"][nodes] = 0.5
-    rows["share_right"][nodes] = 0.5
-    rows["share_left"][start], rows["share_right"][start] = 0.0, 1.0
-    rows["share_left"][start + count], rows["share_right"][start + count] = 1.0, 0.0
+    lumped = _lumps(rows, start, count, length)
     area = 0.25 * np.pi * kind.diameter**2
     displaced = env.water_density * area * lumped
     rows["mass"][nodes] = kind.mass * lumped
@@ -208,31 +261,73 @@ def _place_line(rows, line, start, count, env):
     rows["bed_damping"][nodes] = env.bed_damping * kind.diameter * lumped
 
 
-def _place_point(rows, point, node, env):
+def _place_rod(rows, rod, start, rides, env):
+    """A rod's nodes, like those of a line without stiffness; one that rides on a part leaves its mass (not its weight) to the part."""
+    kind, count = rod.type, len(rod.points) - 1
+    length = rod.length / count
+    segments, nodes = slice(start + 1, start + count + 1), slice(start, start + count + 1)
+    rows["inverse_length"][segments] = 1.0 / length
+    rows["length"][segments] = length
+    rows["live"][segments] = 1.0
+    rows["diameter"][segments] = kind.diameter
+    lumped = _lumps(rows, start, count, length)
+    area = 0.25 * np.pi * kind.diameter**2
+    displaced = env.water_density * area * lumped
+    rows["mass"][nodes] = 0.0 if rides else kind.mass * lumped
+    rows["weight"][nodes] = kind.mass * env.gravity * lumped
+    rows["buoyancy"][nodes] = displaced * env.gravity
+    rows["added_normal"][nodes] = displaced * kind.added_mass_normal
+    rows["drag_normal"][nodes] = 0.5 * env.water_density * kind.diameter * lumped * kind.drag_normal
+    rows["bed_stiffness"][nodes] = env.bed_stiffness * kind.diameter * lumped
+    rows["bed_damping"][nodes] = env.bed_damping * kind.diameter * lumped
+    for end in (start, start + count):
+        rows["drag_axial"][end] = 0.5 * env.water_density * area * kind.drag_end
+        rows["added_axial"][end] = env.water_density * np.pi * kind.diameter**3 / 12.0 * kind.added_mass_end  # on a half sphere
+
+
+def _lumps(rows, start, count, length):
+    """Unstretched length (count + 1,) that each node carries, and whose share is whose."""
+    nodes = slice(start, start + count + 1)
+    lumped = np.full(count + 1, length)
+    lumped[[0, -1]] *= 0.5
+    rows["share_left"][nodes] = 0.5
+    rows["share_right"][nodes] = 0.5
+    rows["share_left"][start], rows["share_right"][start] = 0.0, 1.0
+    rows["share_left"][start + count], rows["share_right"][start + count] = 1.0, 0.0
+    return lumped
+
+
+def _place_point(rows, place, node, env):
     """A point is a sphere of its volume; drag and added mass act alike in all directions. Returns its diameter."""
-    diameter = (6.0 * point.volume / np.pi) ** (1.0 / 3.0)
+    diameter = (6.0 * place.volume / np.pi) ** (1.0 / 3.0)
     contact = 0.25 * np.pi * diameter**2
-    displaced = env.water_density * point.volume
-    rows["mass"][node] = point.mass
-    rows["added_normal"][node] = rows["added_axial"][node] = displaced * point.added_mass
-    rows["weight"][node] = point.mass * env.gravity
-    rows["buoyancy"][node] = displaced * env.gravity
-    rows["drag_normal"][node] = 0.5 * env.water_density * point.drag_area
-    rows["bed_stiffness"][node] = env.bed_stiffness * contact
-    rows["bed_damping"][node] = env.bed_damping * contact
+    displaced = env.water_density * place.volume
+    rows["mass"][node] += place.mass
+    rows["added_normal"][node] += displaced * place.added_mass
+    rows["added_axial"][node] += displaced * place.added_mass
+    rows["weight"][node] += place.weight * env.gravity
+    rows["buoyancy"][node] += displaced * env.gravity
+    rows["drag_normal"][node] += 0.5 * env.water_density * place.drag_area
+    rows["bed_stiffness"][node] += env.bed_stiffness * contact
+    rows["bed_damping"][node] += env.bed_damping * contact
     return diameter
 
 
 def new_state(model, end_point):
     """State at rest, everything at the origin; `statics.settle` places it."""
-    n = model.mass.size
+    n, parts = model.mass.size, model.rigid.mass.size
     position = np.zeros((3, n))
     position[2] = 2.0 * model.bed_level - 100.0  # dummies stay where they are, far below the surface
+    stream = np.zeros((3, n))
+    stream[:] = model.current[:, None]
     return State(
         clock=np.zeros(1),
         pose=np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]),
         twist=np.zeros(6),
         acceleration_of_platform=np.zeros(6),
+        parts=np.hstack([model.rigid.start, np.zeros((parts, 6))]),
+        parts_acceleration=np.zeros((parts, 6)),
+        parts_reaction=np.zeros((parts, 6)),
         position=position,
         velocity=np.zeros((3, n)),
         acceleration=np.zeros((3, n)),
@@ -240,15 +335,28 @@ def new_state(model, end_point):
         tangent=np.zeros((3, n)),
         tension=np.zeros(n),
         strain_rate=np.zeros(n),
+        stream=stream,
+        swell=np.zeros((4, 0)),
         wet=np.ones(n),
         inertia_normal=np.zeros(n),
         inertia_axial=np.zeros(n),
         bed_relief=np.ones(n),
         end_point=end_point.copy(),
-        settings=np.array([0.0, 0.0, 0.0, 1.0, 0.0, np.inf]),
+        settings=np.array([0.0, 0.0, 0.0, 1.0, 0.0, np.inf, 0.0]),
     )
 
 
 def new_scratch(model):
-    n = model.mass.size
-    return Scratch(np.zeros((3, n)), np.zeros((3, n)), np.ones(n), np.zeros((2, 6, n)), np.zeros(n), np.zeros((8, 3)))
+    n, parts = model.mass.size, model.rigid.mass.size
+    return Scratch(
+        position=np.zeros((3, n)),
+        velocity=np.zeros((3, n)),
+        wet_segment=np.ones(n),
+        saved=np.zeros((2, 6, n)),
+        tension=np.zeros(n),
+        motion=np.zeros((8, 3)),
+        parts=np.zeros((parts, 13)),
+        saved_parts=np.zeros((2, parts, 13)),
+        load=np.zeros((model.point_node.size, 9)),
+        matrix=np.zeros((6, 7)),
+    )

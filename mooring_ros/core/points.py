@@ -1,11 +1,12 @@
 """Points: where the ends of lines are held, how they move, and what they feel.
 
 The node of a point and the end nodes of its lines share one motion. Fixed and coupled points are prescribed; a free point moves by the sum
-of the forces on all its nodes over the sum of their inertia.
+of the forces on all its nodes over the sum of their inertia; riding ones go with their rigid part (rigid.py).
 """
 
 from .cache import stage
-from .model import LOOSE, POINT_FREE
+from .layout import POINT_COUPLED, POINT_FIXED, POINT_FREE, POINT_RIDING
+from .model import LOOSE
 from .platform import cross, platform_at, rotate, turned
 from .tension import TINY
 
@@ -104,45 +105,84 @@ def solve_symmetric(m, f):
 
 
 @stage
-def free_point_load(model, state, p):
-    """Sum of forces (3,) and inertia (6,) over the nodes that move with free point p."""
-    force = state.force
-    node = model.point_node[p]
-    fx, fy, fz = force[0, node], force[1, node], force[2, node]
-    matrix = add_inertia(model, state, node, (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
-    for e in range(model.end_node.size):
-        if state.end_point[e] == p:
-            end = model.end_node[e]
-            fx, fy, fz = fx + force[0, end], fy + force[1, end], fz + force[2, end]
-            matrix = add_inertia(model, state, end, matrix)
-    return (fx, fy, fz), matrix
+def _shares_load(model, p):
+    return model.point_kind[p] == POINT_FREE or model.point_kind[p] == POINT_RIDING
 
 
 @stage
-def move_free_points(model, state):
-    """Accelerations of the free points, given to their nodes and those of the ends they hold."""
+def _add_node(model, state, node, load, p):
+    m = add_inertia(model, state, node, (load[p, 3], load[p, 4], load[p, 5], load[p, 6], load[p, 7], load[p, 8]))
+    for k in range(3):
+        load[p, k] += state.force[k, node]
+    for k in range(6):
+        load[p, 3 + k] = m[k]
+
+
+@stage
+def gather(model, state, load):
+    """Forces and inertia (P, 9) of all nodes that move with each free or riding point: its own and those of the ends it holds."""
+    for p in range(model.point_node.size):
+        for k in range(9):
+            load[p, k] = 0.0
+        if _shares_load(model, p) and model.point_node[p] < model.size:
+            _add_node(model, state, model.point_node[p], load, p)
+    for e in range(model.end_node.size):
+        p = state.end_point[e]
+        if p != LOOSE and _shares_load(model, p):
+            _add_node(model, state, model.end_node[e], load, p)
+
+
+@stage
+def move_free_points(model, state, load):
+    """Accelerations of the free points from their `load`, given to their nodes and those of the ends they hold."""
     acceleration = state.acceleration
     for i in range(model.free_points.size):
         p = model.free_points[i]
-        force, matrix = free_point_load(model, state, p)
-        a = solve_symmetric(matrix, force)
+        m = load[p]
+        a = solve_symmetric((m[3], m[4], m[5], m[6], m[7], m[8]), (m[0], m[1], m[2]))
         for k in range(3):
             acceleration[k, model.point_node[p]] = a[k]
-        for e in range(model.end_node.size):
-            if state.end_point[e] == p:
-                for k in range(3):
-                    acceleration[k, model.end_node[e]] = a[k]
+    for e in range(model.end_node.size):
+        p = state.end_point[e]
+        if p != LOOSE and model.point_kind[p] == POINT_FREE:
+            for k in range(3):
+                acceleration[k, model.end_node[e]] = acceleration[k, model.point_node[p]]
+
+
+@stage
+def _prescribed(model, p):
+    return model.point_kind[p] == POINT_FIXED or model.point_kind[p] == POINT_COUPLED
 
 
 @stage
 def hold_prescribed(model, state):
     """Nothing but the platform moves fixed and coupled points: no acceleration of their nodes and ends in the step."""
     for p in range(model.point_node.size):
-        if model.point_kind[p] != POINT_FREE:
+        if _prescribed(model, p):
             for k in range(3):
                 state.acceleration[k, model.point_node[p]] = 0.0
     for e in range(model.end_node.size):
         p = state.end_point[e]
-        if p != LOOSE and model.point_kind[p] != POINT_FREE:
+        if p != LOOSE and _prescribed(model, p):
             for k in range(3):
                 state.acceleration[k, model.end_node[e]] = 0.0
+
+
+@stage
+def point_acceleration(model, state, p):
+    """Acceleration (m/s^2) of the point p: that of the platform's place, of its node, or none."""
+    node = model.point_node[p]
+    if not _prescribed(model, p):
+        return state.acceleration[0, node], state.acceleration[1, node], state.acceleration[2, node]
+    if model.point_kind[p] == POINT_FIXED:
+        return 0.0, 0.0, 0.0
+    a = state.acceleration_of_platform
+    arm = (
+        state.position[0, node] - state.pose[0],
+        state.position[1, node] - state.pose[1],
+        state.position[2, node] - state.pose[2],
+    )
+    omega = (state.twist[3], state.twist[4], state.twist[5])
+    inward = cross(omega, cross(omega, arm))
+    turn = cross((a[3], a[4], a[5]), arm)
+    return a[0] + turn[0] + inward[0], a[1] + turn[1] + inward[1], a[2] + turn[2] + inward[2]

@@ -5,8 +5,10 @@ from typing import NamedTuple
 import numpy as np
 
 from .cache import kernel, stage
-from .model import LOOSE, POINT_COUPLED, POINT_FREE
-from .platform import cross
+from .layout import POINT_COUPLED
+from .model import LOOSE
+from .platform import cross, dot, rotate
+from .points import point_acceleration
 from .tension import TINY
 
 
@@ -18,39 +20,19 @@ class Readings(NamedTuple):
     end_force: np.ndarray  # (k, lines, 2, 3) of the line on what holds its anchor end and its fairlead end, N
     length: np.ndarray  # (k, lines) stretched, m
     length_rate: np.ndarray  # (k, lines), m/s
-    coupled_force: np.ndarray  # (k, coupled points, 3) on the platform at each, N
+    coupled: np.ndarray  # (k, outputs, 6) on the platform at each coupled point, rod and body, N and N m
 
 
 def new_readings(model, rows):
-    lines, coupled = model.first_node.size, model.coupled_points.size
+    lines, outputs = model.first_node.size, model.output_point.size
     return Readings(
         np.zeros((rows, 6)),
         np.zeros((rows, lines, 2)),
         np.zeros((rows, lines, 2, 3)),
         np.zeros((rows, lines)),
         np.zeros((rows, lines)),
-        np.zeros((rows, coupled, 3)),
+        np.zeros((rows, outputs, 6)),
     )
-
-
-@stage
-def _point_acceleration(model, state, p):
-    """Acceleration (m/s^2) of the point p: that of the platform's place, of its node, or none."""
-    node = model.point_node[p]
-    if model.point_kind[p] == POINT_FREE:
-        return state.acceleration[0, node], state.acceleration[1, node], state.acceleration[2, node]
-    if model.point_kind[p] != POINT_COUPLED:
-        return 0.0, 0.0, 0.0
-    a = state.acceleration_of_platform
-    arm = (
-        state.position[0, node] - state.pose[0],
-        state.position[1, node] - state.pose[1],
-        state.position[2, node] - state.pose[2],
-    )
-    omega = (state.twist[3], state.twist[4], state.twist[5])
-    inward = cross(omega, cross(omega, arm))
-    turn = cross((a[3], a[4], a[5]), arm)
-    return a[0] + turn[0] + inward[0], a[1] + turn[1] + inward[1], a[2] + turn[2] + inward[2]
 
 
 @stage
@@ -69,42 +51,83 @@ def _reaction(model, state, node, a):
 
 
 @stage
+def _add_to_output(model, state, row, readings, p, node, force):
+    """Add a force (3,) at `node` to what its point p hands to the platform."""
+    o = model.output_of[p]
+    at = model.point_node[model.output_point[o]]
+    x = state.position
+    moment = cross((x[0, node] - x[0, at], x[1, node] - x[1, at], x[2, node] - x[2, at]), force)
+    for k in range(3):
+        readings.coupled[row, o, k] += force[k]
+        readings.coupled[row, o, 3 + k] += moment[k]
+
+
+@stage
+def _show_line(model, state, row, readings, line):
+    first, count = model.first_node[line], model.segments[line]
+    total, rate = 0.0, 0.0
+    q, x = state.tangent, state.position
+    for i in range(first, first + count):
+        for k in range(3):
+            total += q[k, i + 1] * (x[k, i + 1] - x[k, i])
+        rate += state.strain_rate[i + 1]
+    readings.length[row, line] = total
+    readings.length_rate[row, line] = rate
+    for side in range(2):  # anchor, fairlead
+        end = model.fairlead_end[line] if side == 1 else 1 - model.fairlead_end[line]
+        node = first + count if end == 1 else first
+        readings.tension[row, line, side] = state.tension[first + count if end == 1 else first + 1]
+        p = state.end_point[2 * line + end]
+        force = (0.0, 0.0, 0.0)
+        if p != LOOSE:
+            force = _reaction(model, state, node, point_acceleration(model, state, p))
+        for k in range(3):
+            readings.end_force[row, line, side, k] = force[k]
+        if p != LOOSE and model.point_kind[p] == POINT_COUPLED:
+            _add_to_output(model, state, row, readings, p, node, force)
+
+
+@stage
+def _show_bodies(model, state, row, readings):
+    """What the turning of coupled bodies takes, and what pinned parts hand to coupled pins."""
+    q = (state.pose[3], state.pose[4], state.pose[5], state.pose[6])
+    back = (-q[0], -q[1], -q[2], q[3])
+    omega = (state.twist[3], state.twist[4], state.twist[5])
+    a = state.acceleration_of_platform
+    alpha = (a[3], a[4], a[5])
+    for o in range(model.output_point.size):
+        j = model.output_inertia[o]
+        spun, slow = rotate(back, alpha), rotate(back, omega)
+        turning = rotate(q, (dot(j[0], spun), dot(j[1], spun), dot(j[2], spun)))
+        momentum = rotate(q, (dot(j[0], slow), dot(j[1], slow), dot(j[2], slow)))
+        gyro = cross(omega, momentum)
+        for k in range(3):
+            readings.coupled[row, o, 3 + k] -= turning[k] + gyro[k]
+    for b in range(model.rigid.mass.size):
+        p = model.rigid.pin[b]
+        if p >= 0 and model.point_kind[p] == POINT_COUPLED:
+            r = state.parts_reaction[b]
+            _add_to_output(model, state, row, readings, p, model.point_node[p], (r[0], r[1], r[2]))
+
+
+@stage
 def show(model, state, row, readings):
     """Fill one row of `readings` from the last evaluation."""
+    coupled = readings.coupled
+    for o in range(model.output_point.size):
+        for k in range(6):
+            coupled[row, o, k] = 0.0
     for c in range(model.coupled_points.size):
         p = model.coupled_points[c]
-        own = _reaction(model, state, model.point_node[p], _point_acceleration(model, state, p))
-        for k in range(3):
-            readings.coupled_force[row, c, k] = own[k]
+        node = model.point_node[p]
+        _add_to_output(model, state, row, readings, p, node, _reaction(model, state, node, point_acceleration(model, state, p)))
     for line in range(model.first_node.size):
-        first, count = model.first_node[line], model.segments[line]
-        total, rate = 0.0, 0.0
-        q, x = state.tangent, state.position
-        for i in range(first, first + count):
-            for k in range(3):
-                total += q[k, i + 1] * (x[k, i + 1] - x[k, i])
-            rate += state.strain_rate[i + 1]
-        readings.length[row, line] = total
-        readings.length_rate[row, line] = rate
-        for side in range(2):  # anchor, fairlead
-            end = model.fairlead_end[line] if side == 1 else 1 - model.fairlead_end[line]
-            node = first + count if end == 1 else first
-            readings.tension[row, line, side] = state.tension[first + count if end == 1 else first + 1]
-            p = state.end_point[2 * line + end]
-            force = (0.0, 0.0, 0.0)
-            if p != LOOSE:
-                force = _reaction(model, state, node, _point_acceleration(model, state, p))
-            for k in range(3):
-                readings.end_force[row, line, side, k] = force[k]
-            if p != LOOSE and model.point_kind[p] == POINT_COUPLED:
-                for c in range(model.coupled_points.size):
-                    if model.coupled_points[c] == p:
-                        for k in range(3):
-                            readings.coupled_force[row, c, k] += force[k]
+        _show_line(model, state, row, readings, line)
+    _show_bodies(model, state, row, readings)
     wx, wy, wz, mx, my, mz = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    for c in range(model.coupled_points.size):
-        node = model.point_node[model.coupled_points[c]]
-        f = (readings.coupled_force[row, c, 0], readings.coupled_force[row, c, 1], readings.coupled_force[row, c, 2])
+    for o in range(model.output_point.size):
+        node = model.point_node[model.output_point[o]]
+        f = (coupled[row, o, 0], coupled[row, o, 1], coupled[row, o, 2])
         arm = (
             state.position[0, node] - state.pose[0],
             state.position[1, node] - state.pose[1],
@@ -112,7 +135,7 @@ def show(model, state, row, readings):
         )
         moment = cross(arm, f)
         wx, wy, wz = wx + f[0], wy + f[1], wz + f[2]
-        mx, my, mz = mx + moment[0], my + moment[1], mz + moment[2]
+        mx, my, mz = mx + moment[0] + coupled[row, o, 3], my + moment[1] + coupled[row, o, 4], mz + moment[2] + coupled[row, o, 5]
     w = readings.wrench
     w[row, 0], w[row, 1], w[row, 2], w[row, 3], w[row, 4], w[row, 5] = wx, wy, wz, mx, my, mz
 

@@ -1,6 +1,6 @@
 """Tangent stiffness K = -dF/dx of the static forces, block tridiagonal along the lines.
 
-diagonal[i], above[i], below[i] are the 3 x 3 blocks of node i with itself, with node i + 1 and with node i - 1.
+blocks (n, 3, 3, 3): those of each node with its left neighbour, itself and its right one.
 """
 
 import numpy as np
@@ -10,18 +10,16 @@ from .cache import kernel, stage
 
 
 @kernel
-def fill_tangent(model, state, diagonal, above, below):
+def fill_tangent(model, state, blocks):
     """Blocks at the current positions; `evaluate` must have run there with all velocities zero."""
-    diagonal[:] = 0.0
-    above[:] = 0.0
-    below[:] = 0.0
+    blocks[:] = 0.0
+    below, diagonal, above = blocks[:, 0], blocks[:, 1], blocks[:, 2]
     _axial(model, state, diagonal, above, below)
     for i in range(model.size):
         if state.position[2, i] < model.bed_level:
             diagonal[i, 2, 2] += model.bed_stiffness[i]
-    if model.current[0] != 0.0 or model.current[1] != 0.0 or model.current[2] != 0.0:
-        for i in range(model.size):
-            _drag(model, state, i, diagonal, above, below)
+    for i in range(model.size):
+        _drag(model, state, i, diagonal, above, below)
     _buoyancy(model, state, diagonal, above, below)
 
 
@@ -50,7 +48,9 @@ def _axial(model, state, diagonal, above, below):
 
 @stage
 def _drag(model, state, i, diagonal, above, below):
-    """Change of the current's drag on node i as its tangent turns with the segments on both sides."""
+    """Change of the stream's drag on node i as its tangent turns with the segments on both sides."""
+    if state.stream[0, i] == 0.0 and state.stream[1, i] == 0.0 and state.stream[2, i] == 0.0:
+        return
     tx, ty, tz = (
         state.tangent[0, i] + state.tangent[0, i + 1],
         state.tangent[1, i] + state.tangent[1, i + 1],
@@ -60,7 +60,7 @@ def _drag(model, state, i, diagonal, above, below):
     if size < 1e-6:
         return
     t = (tx / size, ty / size, tz / size)
-    u = (model.current[0], model.current[1], model.current[2])
+    u = (state.stream[0, i], state.stream[1, i], state.stream[2, i])
     along = u[0] * t[0] + u[1] * t[1] + u[2] * t[2]
     ua = (along * t[0], along * t[1], along * t[2])
     un = (u[0] - ua[0], u[1] - ua[1], u[2] - ua[2])

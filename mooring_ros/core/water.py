@@ -1,4 +1,4 @@
-"""Weight, buoyancy, added mass and Morison drag of the nodes in a uniform current."""
+"""Weight, buoyancy, added mass and Morison drag of the nodes in the water's stream."""
 
 import numpy as np
 
@@ -14,7 +14,7 @@ def water_loads(model, state, drag_time):
     unit vectors on both sides; a point has none and takes all as normal). Where the drag would turn a velocity round within `drag_time`
     (s) the inertia is raised to drag x drag_time: the balance of forces is untouched, and a light part in a strong stream stays stable.
     """
-    cx, cy, cz = model.current[0], model.current[1], model.current[2]
+    cx, cy, cz = state.stream[0], state.stream[1], state.stream[2]
     u, v, w = state.velocity[0], state.velocity[1], state.velocity[2]
     qx, qy, qz = state.tangent[0], state.tangent[1], state.tangent[2]
     fx, fy, fz = state.force[0], state.force[1], state.force[2]
@@ -25,7 +25,7 @@ def water_loads(model, state, drag_time):
     for i in range(model.size):
         tx, ty, tz = qx[i] + qx[i + 1], qy[i] + qy[i + 1], qz[i] + qz[i + 1]
         inverse_square = 1.0 / max(tx * tx + ty * ty + tz * tz, TINY)
-        rx, ry, rz = cx - u[i], cy - v[i], cz - w[i]
+        rx, ry, rz = cx[i] - u[i], cy[i] - v[i], cz[i] - w[i]
         along = (rx * tx + ry * ty + rz * tz) * inverse_square
         ax, ay, az = along * tx, along * ty, along * tz
         nx, ny, nz = rx - ax, ry - ay, rz - az

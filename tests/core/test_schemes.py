@@ -168,7 +168,7 @@ def test_energy_does_not_grow_through_slack(zeta):
 def test_strong_motion_with_slack_is_that_of_finer_steps(zeta):
     """A mooring chain that goes slack and snaps: peak within 3 % and rms within 10 % of the dynamic deviation, against steps 20 times finer.
 
-    Without any damping the waves of a snap run on for good and no step converges: there the peak only, within 30 %.
+    Without any damping the waves of a snap run on for good and no step converges: there the mean and the deviation only, within 5 and 10 %.
     """
     kind = line_type(0.08, 110.0, 7.5e8, -zeta, drag=2.0, added=0.8, drag_axial=0.4, added_axial=0.25)
     description = anchored(kind, (0, 0, -100), (250, 0, -10), 280.0, 14, depth=100.0)
@@ -181,8 +181,12 @@ def test_strong_motion_with_slack_is_that_of_finer_steps(zeta):
         mooring.settle(HERE)
         runs.append(mooring.run(times, poses, twists).fairlead_tension[:, 0])
     assert runs[1].min() < 1.0
-    assert runs[0].max() == pytest.approx(runs[1].max(), rel=0.03 if zeta else 0.3)
-    assert zeta == 0.0 or np.sqrt(np.mean((runs[0] - runs[1]) ** 2)) < 0.1 * runs[1].std()
+    if zeta == 0.0:
+        assert runs[0].mean() == pytest.approx(runs[1].mean(), rel=0.05)
+        assert runs[0].std() == pytest.approx(runs[1].std(), rel=0.1)
+        return
+    assert runs[0].max() == pytest.approx(runs[1].max(), rel=0.03)
+    assert np.sqrt(np.mean((runs[0] - runs[1]) ** 2)) < 0.1 * runs[1].std()
 
 
 def test_a_given_step_is_kept_and_one_beyond_the_limit_is_not():

@@ -1,0 +1,214 @@
+"""Where everything of a scene stands in the arrays of the core: lines, rods, points, bodies.
+
+Every place where something can be held is an internal point: the scene's points, the nodes of the rods, of each body one at its centre of
+gravity (with its weight) and one at its origin (with its volume), and for each failure one that takes the ends it lets go.
+"""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..scene import BODY, COUPLED, COUPLED_PINNED, FIXED, FREE, PINNED, RodEnd
+
+# kinds of internal points
+POINT_FIXED, POINT_COUPLED, POINT_FREE, POINT_RIDING = 0, 1, 2, 3
+NO_PART, NO_PIN = -1, -1
+
+_KINDS = {FIXED: POINT_FIXED, COUPLED: POINT_COUPLED, FREE: POINT_FREE}
+
+
+@dataclass
+class Place:
+    """An internal point: its kind, its place (fixed: world; coupled: the platform's axes; free: where it starts; riding: its part's axes), and loads."""
+
+    kind: int
+    position: np.ndarray  # (3,) m
+    part: int = NO_PART
+    mass: float = 0.0  # kg
+    weight: float = 0.0  # kg: what gravity pulls at
+    volume: float = 0.0  # m^3
+    drag_area: float = 0.0  # CdA, m^2
+    added_mass: float = 0.0  # Ca
+    attachment: int = -1  # of a coupled one: the output that it belongs to
+
+    @property
+    def loaded(self):
+        return self.kind == POINT_FREE or self.mass + self.weight + self.volume + self.drag_area > 0.0
+
+
+@dataclass
+class Part:
+    """A rigid part that moves by itself: its frame starts at `position` (3,) m and `turn` (4,), x, y, z, w."""
+
+    position: np.ndarray
+    turn: np.ndarray
+    pin: int = NO_PIN  # internal point that carries its origin
+    mass: float = 0.0  # kg
+    centre: np.ndarray = field(default_factory=lambda: np.zeros(3))  # (3,) m, its axes
+    inertia: np.ndarray = field(default_factory=lambda: np.zeros((3, 3)))  # kg m^2 about its origin, its axes
+    added_surplus: np.ndarray = field(default_factory=lambda: np.zeros((3, 3)))  # m^5: what lumps of added mass on its rods have too much, over rho
+    hull: int = -1  # internal point of the body's own volume
+    hull_drag: tuple = (0.0,) * 6  # CdA, m^2, m^5
+    hull_added: tuple = (0.0,) * 3  # Ca V, m^3
+
+    def add(self, mass, centre, inertia):
+        """Add a mass (kg) with its centre (3,) m and its inertia (3, 3) about it."""
+        total = self.mass + mass
+        if total > 0.0:
+            self.centre = (self.mass * self.centre + mass * centre) / total
+        self.mass = total
+        self.inertia += inertia + mass * ((centre @ centre) * np.eye(3) - np.outer(centre, centre))
+
+
+@dataclass
+class RodNodes:
+    """A rod's internal points, end A first, and what stands between them; `axis` (3,) from A to B in the axes of what carries it."""
+
+    type: object
+    points: range
+    length: float  # m
+    axis: np.ndarray
+    free_joint: bool  # of length zero and free to turn: it hands moments from line to line
+
+
+class Layout:
+    """Internal points, parts, rods and outputs of a scene.
+
+    points, parts: lists of Place and Part. rods: dict of rod id -> RodNodes. outputs: names of the coupled points, rods and bodies.
+    """
+
+    def __init__(self, scene):
+        self.points, self.parts, self.rods, self.outputs = [], [], {}, []
+        self.output_point, self.output_inertia = [], []  # internal point and (3, 3) inertia of each output
+        self._bodies = {body.id: body for body in scene.bodies}
+        self._body_part = {}
+        for body in scene.bodies:
+            if body.kind == FREE:
+                self._body_part[body.id] = len(self.parts)
+                self.parts.append(Part(np.array(body.position), np.array(body.orientation)))
+        for point in scene.points:
+            self._add_scene_point(point)
+        for rod in scene.rods:
+            self._add_rod(rod)
+        for body in scene.bodies:
+            self._add_body(body)
+        self.failure_points = range(len(self.points), len(self.points) + len(scene.failures))
+        self.points += [Place(POINT_FREE, np.zeros(3)) for _ in scene.failures]
+        self._point_index = {point.id: i for i, point in enumerate(scene.points)}
+
+    def holder(self, end):
+        """Internal point of a line's end: a point id or a RodEnd."""
+        if isinstance(end, RodEnd):
+            points = self.rods[end.rod].points
+            return points[0] if end.end == "A" else points[-1]
+        return self._point_index[end]
+
+    def is_coupled(self, end):
+        return self.points[self.holder(end)].kind == POINT_COUPLED
+
+    # -- carriers ---------------------------------------------------------------------------------------------------------------------
+
+    def _carried(self, kind, body_id, position):
+        """(kind, place, part) of something at `position` (3,) in the axes that the file gives it in."""
+        position = np.array(position, dtype=float)
+        if kind != BODY:
+            return _KINDS[kind], position, NO_PART
+        body = self._bodies[body_id]
+        if body.kind == FREE:
+            return POINT_RIDING, position, self._body_part[body_id]
+        return _KINDS[body.kind], np.array(body.position) + turned(body.orientation, position), NO_PART
+
+    def _output(self, name, point, inertia=None):
+        self.outputs.append(name)
+        self.output_point.append(point)
+        self.output_inertia.append(np.zeros((3, 3)) if inertia is None else inertia)
+        return len(self.outputs) - 1
+
+    def _add_scene_point(self, point):
+        kind, place, part = self._carried(point.kind, point.body, point.position)
+        own = Place(kind, place, part, point.mass, point.mass, point.volume, point.drag_area, point.added_mass)
+        if kind == POINT_COUPLED:
+            own.attachment = self._output(point.name, len(self.points))
+        if kind == POINT_RIDING:
+            self.parts[part].add(point.mass, place, np.zeros((3, 3)))
+            own.mass = 0.0
+        self.points.append(own)
+
+    # -- rods -------------------------------------------------------------------------------------------------------------------------
+
+    def _add_rod(self, rod):
+        a, b = np.array(rod.end_a, dtype=float), np.array(rod.end_b, dtype=float)
+        span = b - a
+        length = float(np.linalg.norm(span)) if rod.segments else 0.0
+        axis = span / np.linalg.norm(span) if np.linalg.norm(span) > 0.0 else np.zeros(3)
+        first = len(self.points)
+        places = [a + s * span for s in np.linspace(0.0, 1.0, rod.segments + 1)] if length > 0.0 else [a]
+        free_joint = length == 0.0 and rod.kind in (FREE, PINNED, COUPLED_PINNED)
+        if length == 0.0:
+            kind = {PINNED: FIXED, COUPLED_PINNED: COUPLED}.get(rod.kind, rod.kind)
+            carried = [self._carried(kind, rod.body, a)]
+        elif rod.kind in (FREE, PINNED, COUPLED_PINNED):
+            carried = self._free_rod(rod, a, span, places)
+        else:
+            carried = [self._carried(rod.kind, rod.body, place) for place in places]
+            if carried[0][0] == POINT_RIDING:
+                self._add_rod_mass(self.parts[carried[0][2]], rod, 0.5 * (a + b), axis, length)
+        if rod.kind == BODY and carried[0][0] != POINT_RIDING:
+            axis = turned(self._bodies[rod.body].orientation, axis)
+        output = self._output(rod.name, first) if carried[0][0] == POINT_COUPLED else -1
+        for kind, place, part in carried:
+            self.points.append(Place(kind, place, part, attachment=output if kind == POINT_COUPLED else -1))
+        self.rods[rod.id] = RodNodes(rod.type, range(first, len(self.points)), length, axis, free_joint)
+
+    def _free_rod(self, rod, a, span, places):
+        """The nodes of a rod that is a part of its own; a pinned one keeps its end A on a fixed or coupled point."""
+        pinned = rod.kind != FREE
+        origin = a if pinned else a + 0.5 * span
+        part = Part(origin, np.array([0.0, 0.0, 0.0, 1.0]))
+        length = float(np.linalg.norm(span))
+        self._add_rod_mass(part, rod, a + 0.5 * span - origin, span / length, length)
+        index = len(self.parts)
+        self.parts.append(part)
+        carried = [(POINT_RIDING, place - origin, index) for place in places]
+        if pinned:
+            part.pin = len(self.points)
+            carried[0] = (POINT_FIXED if rod.kind == PINNED else POINT_COUPLED, a, NO_PART)
+        return carried
+
+    @staticmethod
+    def _add_rod_mass(part, rod, centre, axis, length):
+        """Mass of a slender cylinder; and the surplus of its lumped added mass over the continuous one, m L^2/6N^2 about axes across it."""
+        mass, across = rod.type.mass * length, np.eye(3) - np.outer(axis, axis)
+        square = (0.5 * rod.type.diameter) ** 2
+        inertia = mass * (length**2 / 12.0 + square / 4.0) * across + 0.5 * mass * square * np.outer(axis, axis)
+        part.add(mass, centre, inertia)
+        added = 0.25 * np.pi * rod.type.diameter**2 * length * rod.type.added_mass_normal
+        part.added_surplus += added * length**2 / (6.0 * rod.segments**2) * across
+
+    # -- bodies -----------------------------------------------------------------------------------------------------------------------
+
+    def _add_body(self, body):
+        gravity = self._carried(BODY, body.id, body.centre_of_gravity)
+        origin = self._carried(BODY, body.id, (0.0, 0.0, 0.0))
+        rotation = np.array([turned(body.orientation, axis) for axis in np.eye(3)]).T
+        inertia = np.diag(body.inertia).astype(float)
+        first = len(self.points)
+        weight, volume = Place(*gravity, weight=body.mass), Place(*origin, volume=body.volume)
+        if body.kind == FREE:
+            part = self.parts[self._body_part[body.id]]
+            part.add(body.mass, np.array(body.centre_of_gravity, dtype=float), inertia)
+            part.hull, part.hull_drag = first + 1, body.drag_area
+            part.hull_added = tuple(ca * body.volume for ca in body.added_mass)
+        else:
+            weight.mass = body.mass
+            volume.drag_area, volume.added_mass = np.mean(body.drag_area[:3]), np.mean(body.added_mass)
+        if body.kind == COUPLED:
+            weight.attachment = volume.attachment = self._output(body.name, first + 1, rotation @ inertia @ rotation.T)
+        self.points += [weight, volume]
+
+
+def turned(quaternion, vector):
+    """The vector (3,) turned by a unit quaternion x, y, z, w."""
+    q, v = np.array(quaternion[:3], dtype=float), np.array(vector, dtype=float)
+    t = 2.0 * np.cross(q, v)
+    return v + quaternion[3] * t + np.cross(q, t)
