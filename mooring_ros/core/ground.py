@@ -1,0 +1,386 @@
+"""Contact with a bed that is not flat, or that has friction: what the passes over all nodes do.
+
+`contact` comes last of all forces, since what friction answers depends on them. Node tangents are the sum of the unit vectors of the
+segments on both sides. bed (4, n) holds z of the bed under each node (m) and its unit normal; grip (4, n) what the law `stick` remembers:
+the place where the node holds on (m), and -1 for no contact, 0 sticking, 1 sliding.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..scene.description import SATURATED as SATURATED_LAW
+from .bathymetry import Grid, build_grid, grid_under
+from .cache import kernel, stage
+from .friction import LEAST, MODULUS, NO_FRICTION, ROUNDING, SATURATED, STICK, return_to_ellipse, saturated_part
+from .tension import TINY
+
+LIGHTEST = 1e-30  # kg: keeps a node without inertia from dividing by zero
+UPRIGHT = 1e-24  # square of the tangent's part along the bed, below which a node has no direction there
+NO_CONTACT, STICKING, SLIDING = -1.0, 0.0, 1.0
+
+
+class Ground(NamedTuple):
+    """The bed of a scene."""
+
+    on: bool  # whether the bed is other than flat and smooth
+    grid: Grid
+    level: float  # z at the origin of a plane bed, m
+    slope: tuple  # its rise along x and along y
+    law: int  # NO_FRICTION, SATURATED or STICK
+    static_axial: float
+    static_across: float
+    kinetic_axial: float
+    kinetic_across: float
+    directional: float  # 1, or 0 where friction acts against the velocity as a whole
+    ramp: float  # c_v, N s/m: below the speed N / c_v the saturated law creeps
+    stiffness_ratio: float  # tangential over normal stiffness of `stick`
+    damping_ratio: float  # ... and damping: of the same share of critical
+
+
+def build_ground(environment):
+    """Ground of a scene's Environment. Raises ValueError where it makes no sense."""
+    slope = tuple(float(rise) for rise in environment.bed_slope)
+    if environment.bathymetry is not None and slope != (0.0, 0.0):
+        raise ValueError("bed: expected a bathymetry grid or a slope, got both")
+    friction = environment.friction
+    law, coefficients, ramp, directional = NO_FRICTION, (0.0, 0.0, 0.0, 0.0), 0.0, 1.0
+    if friction is not None:
+        law = SATURATED if friction.law == SATURATED_LAW else STICK
+        coefficients = (friction.static_axial, friction.static_transverse, friction.kinetic_axial, friction.kinetic_transverse)
+        if not all(0.0 <= kinetic <= static < np.inf for static, kinetic in zip(coefficients[:2], coefficients[2:])):
+            raise ValueError(f"bed friction: expected static coefficients not below the kinetic ones and none negative, got {coefficients}")
+        ramp = float(friction.ramp)
+        directional = 0.0 if law == SATURATED and getattr(friction, "isotropic", False) else 1.0
+    ratio = max(MODULUS / environment.bed_stiffness, 1.0) if environment.bed_stiffness > 0.0 else 1.0
+    return Ground(
+        law != NO_FRICTION or environment.bathymetry is not None or slope != (0.0, 0.0),
+        build_grid(environment.bathymetry),
+        -float(environment.depth),
+        slope,
+        law,
+        *(float(value) for value in coefficients),
+        directional,
+        ramp,
+        float(ratio),
+        float(np.sqrt(ratio)),
+    )
+
+
+def bed_at(ground, x, y):
+    """z (m) of the bed and its unit normal at x, y (m) of any one shape: an array (4, *shape)."""
+    x, y = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
+    place, bed = np.zeros((3, x.size)), np.zeros((4, x.size))
+    place[0], place[1] = x.ravel(), y.ravel()
+    bed_under(ground, x.size, place, bed)
+    return bed.reshape(4, *x.shape)
+
+
+def bed_level(ground, x, y):
+    """z (m) of the bed at x, y (m), of their shape."""
+    return bed_at(ground, x, y)[0]
+
+
+@kernel
+def bed_under(ground, size, position, bed):
+    """bed (4, n): z of the bed under each node (m) and its unit normal."""
+    x, y = position[0], position[1]
+    level, nx, ny, nz = bed[0], bed[1], bed[2], bed[3]
+    if ground.grid.x.size == 0:
+        slope_x, slope_y = ground.slope
+        up = 1.0 / np.sqrt(1.0 + slope_x * slope_x + slope_y * slope_y)
+        for i in range(size):
+            level[i] = ground.level + slope_x * x[i] + slope_y * y[i]
+            nx[i] = -slope_x * up
+            ny[i] = -slope_y * up
+            nz[i] = up
+    else:
+        for i in range(size):
+            z, slope_x, slope_y = grid_under(ground.grid, x[i], y[i])
+            up = 1.0 / np.sqrt(1.0 + slope_x * slope_x + slope_y * slope_y)
+            level[i] = z
+            nx[i] = -slope_x * up
+            ny[i] = -slope_y * up
+            nz[i] = up
+
+
+@stage
+def _mobility(tx, ty, tz, normal, axial, slaved):
+    """M^-1 = across I + surplus t t' of a node with tangent t of any length: (across, surplus). None where the motion is shared."""
+    normal, axial = max(normal, LIGHTEST), max(axial, LIGHTEST)
+    square = max(tx * tx + ty * ty + tz * tz, TINY)
+    both = (0.0 if slaved else 1.0) / (normal * axial * square)
+    across, surplus = axial * square * both, (normal - axial) * both
+    return across, surplus
+
+
+@stage
+def _push(step, depth, speed, free_acceleration, mobility, stiffness, damping):
+    """Reaction (N) along the normal, never adhesive: spring and damper at the place and speed after the Euler step."""
+    resist = damping + step * stiffness
+    push = (stiffness * depth - resist * (speed + step * free_acceleration)) / (1.0 + step * resist * mobility)
+    return max(push, 0.0) if depth > 0.0 else 0.0
+
+
+@kernel
+def contact(
+    ground, size, step, position, velocity, tangent, bed_stiffness, bed_damping, inertia_normal, inertia_axial, slaved, bed, grip, force, hold
+):
+    """Add the bed's forces (N) to `force` (3, n), which holds all other forces on the nodes already.
+
+    They are taken implicitly over the Euler step `step` (s), so that a = M^-1 F afterwards is the linearly implicit step; zero is the
+    plain law. Nodes that are `slaved` (n,) share their motion with others: their forces are those of the law at their place and speed,
+    and hold (2, n) is what their owner adds to the inertia (kg) along the normal and in the tangent plane.
+    """
+    if ground.law == NO_FRICTION:
+        _smooth(
+            size, step, position, velocity, tangent, bed_stiffness, bed_damping, inertia_normal, inertia_axial, slaved, bed, force, hold
+        )
+    elif ground.law == SATURATED:
+        _saturated(
+            ground, size, step, position, velocity, tangent, bed_stiffness, bed_damping, inertia_normal, inertia_axial, slaved, bed, force, hold
+        )
+    else:
+        _sticking(
+            ground, size, step, position, velocity, tangent, bed_stiffness, bed_damping, inertia_normal, inertia_axial, slaved, bed, grip, force, hold
+        )
+
+
+@stage
+def _smooth(size, step, position, velocity, tangent, bed_stiffness, bed_damping, inertia_normal, inertia_axial, slaved, bed, force, hold):
+    z, u, v, w = position[2], velocity[0], velocity[1], velocity[2]
+    qx, qy, qz = tangent[0], tangent[1], tangent[2]
+    fx, fy, fz = force[0], force[1], force[2]
+    level, normal_x, normal_y, normal_z = bed[0], bed[1], bed[2], bed[3]
+    hold_normal, hold_along = hold[0], hold[1]
+    for i in range(size):
+        nx, ny, nz = normal_x[i], normal_y[i], normal_z[i]
+        tx, ty, tz = qx[i] + qx[i + 1], qy[i] + qy[i + 1], qz[i] + qz[i + 1]
+        across, surplus = _mobility(tx, ty, tz, inertia_normal[i], inertia_axial[i], slaved[i])
+        tn = tx * nx + ty * ny + tz * nz
+        tf = surplus * (tx * fx[i] + ty * fy[i] + tz * fz[i])
+        free = across * (nx * fx[i] + ny * fy[i] + nz * fz[i]) + tf * tn
+        speed = u[i] * nx + v[i] * ny + w[i] * nz
+        push = _push(step, (level[i] - z[i]) * nz, speed, free, across + surplus * tn * tn, bed_stiffness[i], bed_damping[i])
+        fx[i] += push * nx
+        fy[i] += push * ny
+        fz[i] += push * nz
+        hold_normal[i] = step * (bed_damping[i] + step * bed_stiffness[i]) if push > 0.0 else 0.0
+        hold_along[i] = 0.0
+
+
+@stage
+def _in_plane(x, y, z, nx, ny, nz):
+    """Part of a vector in the plane across the unit normal."""
+    along = x * nx + y * ny + z * nz
+    return x - along * nx, y - along * ny, z - along * nz
+
+
+@stage
+def _axial_direction(tx, ty, tz, nx, ny, nz):
+    """Unit vector of the tangent's part in the bed's plane, null for a node that stands upright."""
+    px, py, pz = _in_plane(tx, ty, tz, nx, ny, nz)
+    square = px * px + py * py + pz * pz
+    scale = 1.0 / np.sqrt(max(square, UPRIGHT))
+    scale = scale if square > UPRIGHT else 0.0
+    return px * scale, py * scale, pz * scale
+
+
+@stage
+def _saturated(
+    ground, size, step, position, velocity, tangent, bed_stiffness, bed_damping, inertia_normal, inertia_axial, slaved, bed, force, hold
+):
+    z, u, v, w = position[2], velocity[0], velocity[1], velocity[2]
+    qx, qy, qz = tangent[0], tangent[1], tangent[2]
+    fx, fy, fz = force[0], force[1], force[2]
+    level, normal_x, normal_y, normal_z = bed[0], bed[1], bed[2], bed[3]
+    hold_normal, hold_along = hold[0], hold[1]
+    static_axial, static_across, kinetic_axial, kinetic_across = (
+        ground.static_axial,
+        ground.static_across,
+        ground.kinetic_axial,
+        ground.kinetic_across,
+    )
+    directional, ramp = ground.directional, ground.ramp
+    for i in range(size):
+        nx, ny, nz = normal_x[i], normal_y[i], normal_z[i]
+        tx, ty, tz = qx[i] + qx[i + 1], qy[i] + qy[i + 1], qz[i] + qz[i + 1]
+        across, surplus = _mobility(tx, ty, tz, inertia_normal[i], inertia_axial[i], slaved[i])
+        tn = tx * nx + ty * ny + tz * nz
+        tf = surplus * (tx * fx[i] + ty * fy[i] + tz * fz[i])
+        free = across * (nx * fx[i] + ny * fy[i] + nz * fz[i]) + tf * tn
+        speed = u[i] * nx + v[i] * ny + w[i] * nz
+        push = _push(step, (level[i] - z[i]) * nz, speed, free, across + surplus * tn * tn, bed_stiffness[i], bed_damping[i])
+        gx, gy, gz = fx[i] + push * nx, fy[i] + push * ny, fz[i] + push * nz
+        # velocities in the plane, now (v) and after the step without friction (d), split along and across the line
+        tf = surplus * (tx * gx + ty * gy + tz * gz)
+        vx, vy, vz = _in_plane(u[i], v[i], w[i], nx, ny, nz)
+        dx, dy, dz = _in_plane(across * gx + tf * tx, across * gy + tf * ty, across * gz + tf * tz, nx, ny, nz)
+        dx, dy, dz = vx + step * dx, vy + step * dy, vz + step * dz
+        ex, ey, ez = _axial_direction(tx, ty, tz, nx, ny, nz)
+        te = tx * ex + ty * ey + tz * ez
+        give_across = step * across
+        give_axial = give_across + step * surplus * te * te
+        give_across = give_across if directional > 0.0 else max(give_axial, give_across)
+        ex, ey, ez = directional * ex, directional * ey, directional * ez
+        now = vx * ex + vy * ey + vz * ez
+        then = dx * ex + dy * ey + dz * ez
+        vx, vy, vz = vx - now * ex, vy - now * ey, vz - now * ez
+        dx, dy, dz = dx - then * ex, dy - then * ey, dz - then * ez
+        axial, secant_axial = saturated_part(abs(then), abs(now), push, static_axial, kinetic_axial, ramp, give_axial)
+        drift, sliding = np.sqrt(dx * dx + dy * dy + dz * dz), np.sqrt(vx * vx + vy * vy + vz * vz)
+        side, secant_across = saturated_part(drift, sliding, push, static_across, kinetic_across, ramp, give_across)
+        axial *= then
+        fx[i] = gx - axial * ex - side * dx
+        fy[i] = gy - axial * ey - side * dy
+        fz[i] = gz - axial * ez - side * dz
+        hold_normal[i] = step * (bed_damping[i] + step * bed_stiffness[i]) if push > 0.0 else 0.0
+        hold_along[i] = step * max(secant_axial, secant_across) if push > 0.0 else 0.0
+
+
+@stage
+def _sticking(
+    ground, size, step, position, velocity, tangent, bed_stiffness, bed_damping, inertia_normal, inertia_axial, slaved, bed, grip, force, hold
+):
+    x, y, z = position[0], position[1], position[2]
+    u, v, w = velocity[0], velocity[1], velocity[2]
+    qx, qy, qz = tangent[0], tangent[1], tangent[2]
+    fx, fy, fz = force[0], force[1], force[2]
+    level, normal_x, normal_y, normal_z = bed[0], bed[1], bed[2], bed[3]
+    grip_x, grip_y, grip_z, state = grip[0], grip[1], grip[2], grip[3]
+    hold_normal, hold_along = hold[0], hold[1]
+    static_axial, static_across, kinetic_axial, kinetic_across = (
+        ground.static_axial,
+        ground.static_across,
+        ground.kinetic_axial,
+        ground.kinetic_across,
+    )
+    stiffer, denser = ground.stiffness_ratio, ground.damping_ratio
+    for i in range(size):
+        nx, ny, nz = normal_x[i], normal_y[i], normal_z[i]
+        tx, ty, tz = qx[i] + qx[i + 1], qy[i] + qy[i + 1], qz[i] + qz[i + 1]
+        across, surplus = _mobility(tx, ty, tz, inertia_normal[i], inertia_axial[i], slaved[i])
+        tn = tx * nx + ty * ny + tz * nz
+        tf = surplus * (tx * fx[i] + ty * fy[i] + tz * fz[i])
+        free = across * (nx * fx[i] + ny * fy[i] + nz * fz[i]) + tf * tn
+        speed = u[i] * nx + v[i] * ny + w[i] * nz
+        push = _push(step, (level[i] - z[i]) * nz, speed, free, across + surplus * tn * tn, bed_stiffness[i], bed_damping[i])
+        gx, gy, gz = fx[i] + push * nx, fy[i] + push * ny, fz[i] + push * nz
+        # trial force k_t (x - grip) + (c_t + k_t step) (velocity after the step without friction), in the plane
+        tf = surplus * (tx * gx + ty * gy + tz * gz)
+        spring, resist = stiffer * bed_stiffness[i], denser * bed_damping[i] + step * stiffer * bed_stiffness[i]
+        remembered = spring if state[i] >= 0.0 else 0.0
+        dx, dy, dz = _in_plane(
+            remembered * (x[i] - grip_x[i]) + resist * (u[i] + step * (across * gx + tf * tx)),
+            remembered * (y[i] - grip_y[i]) + resist * (v[i] + step * (across * gy + tf * ty)),
+            remembered * (z[i] - grip_z[i]) + resist * (w[i] + step * (across * gz + tf * tz)),
+            nx,
+            ny,
+            nz,
+        )
+        ex, ey, ez = _axial_direction(tx, ty, tz, nx, ny, nz)
+        te = tx * ex + ty * ey + tz * ez
+        axial = dx * ex + dy * ey + dz * ez
+        dx, dy, dz = dx - axial * ex, dy - axial * ey, dz - axial * ez
+        limit_axial = push * (kinetic_axial if state[i] > 0.0 else static_axial)
+        limit_across = push * (kinetic_across if state[i] > 0.0 else static_across)
+        give = step * resist
+        part, side, share = return_to_ellipse(
+            axial,
+            np.sqrt(dx * dx + dy * dy + dz * dz),
+            limit_axial,
+            limit_across,
+            give * (across + surplus * te * te),
+            give * across,
+        )
+        part *= axial
+        fx[i] = gx - part * ex - side * dx
+        fy[i] = gy - part * ey - side * dy
+        fz[i] = gz - part * ez - side * dz
+        hold_along[i] = share * give if push > 0.0 else 0.0
+    for i in range(size):  # apart: one array more, and the compiler gives up proving that none overlap
+        hold_normal[i] = step * (bed_damping[i] + step * bed_stiffness[i]) if hold_along[i] > 0.0 else 0.0
+
+
+@kernel
+def commit_grip(ground, size, position, velocity, tangent, bed_stiffness, bed_damping, bed, grip):
+    """Bring the memory of `stick` to the state after a step; `bed` must be that of the positions.
+
+    A node that touches the bed for the first time holds on where it is. One whose trial force, spring and damper, passes the limit slides:
+    it takes its hold along so that the spring's force is kinetic friction at most. It sticks again as soon as the limit is not passed.
+    """
+    for i in range(size):
+        nx, ny, nz = bed[1, i], bed[2, i], bed[3, i]
+        depth = (bed[0, i] - position[2, i]) * nz
+        if not depth > 0.0:
+            grip[3, i] = NO_CONTACT
+            continue
+        if grip[3, i] < 0.0:
+            grip[0, i], grip[1, i], grip[2, i], grip[3, i] = position[0, i], position[1, i], position[2, i], STICKING
+        speed = velocity[0, i] * nx + velocity[1, i] * ny + velocity[2, i] * nz
+        push = max(bed_stiffness[i] * depth - bed_damping[i] * speed, LEAST)
+        rx, ry, rz = _in_plane(position[0, i] - grip[0, i], position[1, i] - grip[1, i], position[2, i] - grip[2, i], nx, ny, nz)
+        vx, vy, vz = _in_plane(velocity[0, i], velocity[1, i], velocity[2, i], nx, ny, nz)
+        t = (tangent[0, i] + tangent[0, i + 1], tangent[1, i] + tangent[1, i + 1], tangent[2, i] + tangent[2, i + 1])
+        ex, ey, ez = _axial_direction(t[0], t[1], t[2], nx, ny, nz)
+        spring, damper = ground.stiffness_ratio * bed_stiffness[i], ground.damping_ratio * bed_damping[i]
+        static = (max(ground.static_axial * push, LEAST), max(ground.static_across * push, LEAST))
+        kinetic = (max(ground.kinetic_axial * push, LEAST), max(ground.kinetic_across * push, LEAST))
+        limit = kinetic if grip[3, i] > 0.0 else static
+        trial = _ellipse(spring * rx + damper * vx, spring * ry + damper * vy, spring * rz + damper * vz, ex, ey, ez, limit)
+        if trial <= 1.0 + ROUNDING:
+            grip[3, i] = STICKING
+            continue
+        grip[3, i] = SLIDING
+        kept = 1.0 / max(_ellipse(spring * rx, spring * ry, spring * rz, ex, ey, ez, kinetic), 1.0)
+        grip[0, i] = position[0, i] - kept * rx
+        grip[1, i] = position[1, i] - kept * ry
+        grip[2, i] = position[2, i] - kept * rz
+
+
+@stage
+def _ellipse(fx, fy, fz, ex, ey, ez, limit):
+    """Load of the force f in the plane, 1 on the ellipse with half axes limit = (along e, across)."""
+    axial = fx * ex + fy * ey + fz * ez
+    fx, fy, fz = fx - axial * ex, fy - axial * ey, fz - axial * ez
+    a, b = axial / limit[0], np.sqrt(fx * fx + fy * fy + fz * fz) / limit[1]
+    return np.sqrt(a * a + b * b)
+
+
+@kernel
+def ground_blocks(ground, size, position, tangent, bed_stiffness, bed, grip, diagonal):
+    """Add -dF/dx of contact and of `stick` friction to diagonal (n, 3, 3), at rest and for step 0, the bed's normal and the tangent held.
+
+    Sliding friction is perfectly plastic along the slip and turns with it across; its limit grows with the depth.
+    """
+    for i in range(size):
+        n = (bed[1, i], bed[2, i], bed[3, i])
+        depth = (bed[0, i] - position[2, i]) * n[2]
+        if not depth > 0.0:
+            continue
+        stiffness = bed_stiffness[i]
+        for a in range(3):
+            for b in range(3):
+                diagonal[i, a, b] += stiffness * n[a] * n[b]
+        if ground.law != STICK or grip[3, i] < 0.0:
+            continue
+        e = _in_plane(position[0, i] - grip[0, i], position[1, i] - grip[1, i], position[2, i] - grip[2, i], n[0], n[1], n[2])
+        t = (tangent[0, i] + tangent[0, i + 1], tangent[1, i] + tangent[1, i + 1], tangent[2, i] + tangent[2, i + 1])
+        d = _axial_direction(t[0], t[1], t[2], n[0], n[1], n[2])
+        sliding = grip[3, i] > 0.0
+        mu_axial = max(ground.kinetic_axial if sliding else ground.static_axial, LEAST)
+        mu_across = max(ground.kinetic_across if sliding else ground.static_across, LEAST)
+        spring = ground.stiffness_ratio * stiffness
+        load = spring * _ellipse(e[0], e[1], e[2], d[0], d[1], d[2], (mu_axial, mu_across))  # N of the normal force that carries it
+        push = stiffness * depth
+        share = min(push / max(load, LEAST), 1.0)
+        along = e[0] * d[0] + e[1] * d[1] + e[2] * d[2]
+        for a in range(3):
+            for b in range(3):
+                k = share * spring * ((1.0 if a == b else 0.0) - n[a] * n[b])
+                if share < 1.0:
+                    # F = -push spring e / load; d load / dx = spring^2 (E e) / load with E = d d' / mu_a^2 + (P - d d') / mu_t^2
+                    gradient = along * d[b] / mu_axial**2 + (e[b] - along * d[b]) / mu_across**2
+                    k -= share * spring * e[a] * gradient * (spring / load) ** 2
+                    k -= spring / load * e[a] * stiffness * n[b]
+                diagonal[i, a, b] += k
