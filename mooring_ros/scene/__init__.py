@@ -1,8 +1,10 @@
 """What is moored: description, MoorDyn v2 reader and checks. No numerics."""
 
+from .bed import bed_level
 from .description import (
     ANGLE,
     BODY,
+    COMPONENTS,
     COUPLED,
     COUPLED_PINNED,
     ELEVATION,
@@ -34,6 +36,7 @@ from .moordyn import load_scene, parse_scene
 __all__ = [
     "ANGLE",
     "BODY",
+    "COMPONENTS",
     "COUPLED",
     "COUPLED_PINNED",
     "ELEVATION",
@@ -59,6 +62,7 @@ __all__ = [
     "Scene",
     "SceneError",
     "Waves",
+    "bed_level",
     "load_scene",
     "parse_scene",
 ]

@@ -4,7 +4,8 @@ import difflib
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from .rows import Row, parse_number
+from .files import unquoted
+from .rows import Row, parse_count, parse_number
 from .sections import Section
 
 DEFAULT = "default"
@@ -21,6 +22,16 @@ class Fate:
 
 def _number(unit: str = "", above: float | None = None, at_least: float | None = None):
     return lambda row, name: row.number(0, name, unit, above=above, at_least=at_least)
+
+
+def _count(least: int, largest: int):
+    def read(row: Row, name: str) -> int:
+        value = parse_count(row.words[0])
+        if value is None or not least <= value <= largest:
+            raise row.error(f"{name} is '{row.words[0]}', expected a whole number from {least} to {largest}")
+        return value
+
+    return read
 
 
 def _flag(row: Row, name: str) -> float:
@@ -44,32 +55,48 @@ def _one_of(*choices: str):
     return read
 
 
-def _off(what: str, expected: str = "0"):
-    """Accepts only values that switch the effect off."""
+def _mode(*built: int, **refused: str):
+    """A switch with numbers; 0 and words for nothing are off. ``refused`` says by name (such as m2) what other numbers would be."""
 
-    def read(row: Row, name: str) -> float:
-        word = row.words[0].strip("\"'")
-        value = parse_number(word)
-        if value == 0.0 or word.lower() in ("", "-", "none", "null", "false", "f", "unused"):
-            return 0.0
-        raise row.error(f"{name} is '{row.words[0]}', expected {expected}: {what} not built yet")
+    def read(row: Row, name: str) -> int:
+        value = 0 if _is_off(row.words[0]) else parse_count(row.words[0])
+        if value == 0 or value in built:
+            return value
+        expected = " or ".join(str(mode) for mode in (0, *built))
+        why = f": {refused[f'm{value}']}" if value is not None and f"m{value}" in refused else ""
+        raise row.error(f"{name} is '{row.words[0]}', expected {expected}{why}")
 
     return read
 
 
-def _depth(row: Row, name: str) -> float:
-    if parse_number(row.words[0]) is None and any(mark in row.words[0] for mark in "./\\\"'"):
-        raise row.error(f"{name} is the file '{row.words[0]}', expected a number > 0 (m): bathymetry from a file is not built yet")
+def _is_off(word: str) -> bool:
+    word = unquoted(word)
+    return parse_number(word) == 0.0 or word.lower() in ("", "-", "none", "null", "false", "f", "unused")
+
+
+def _file(row: Row, name: str) -> str:
+    """The name of a file, or "" for none."""
+    return "" if _is_off(row.words[0]) else unquoted(row.words[0])
+
+
+def _water_file(row: Row, name: str) -> str:
+    if unquoted(row.words[0]).upper() == "SEASTATE":
+        raise row.error(f"{name} is '{row.words[0]}', expected the name of a file or nothing: SeaState is not there")
+    return _file(row, name)
+
+
+def _depth(row: Row, name: str) -> float | str:
+    """The depth, or the name of a bathymetry file as in MoorDyn-F."""
+    if parse_number(row.words[0]) is None and any(letter.isalpha() for letter in row.words[0]):
+        return unquoted(row.words[0])
     return row.number(0, name, "m", above=0)
 
 
 _STEP = "the step is chosen from the stability limits of the scene, or given to the solver"
 _STATICS = "the initial state comes from a static solution, not from dynamic relaxation"
 _OUTPUT = "what is written is decided by the node and the command line"
-_NO_WAVES = "there are no waves and no current grids in this scene"
-_NO_FRICTION = "the bed has no friction in this scene"
-_FRICTION = "bed friction is"
-_WAVES = "waves and current grids are"
+_GRIDS = "the water's motion is computed at the nodes themselves"
+_INERTIA = "coupled bodies and rods always return the forces of their inertia"
 
 # By the upper-case name; the aliases are those of MoorDyn-C and MoorDyn-F.
 FATES: dict[str, Fate] = {}
@@ -88,22 +115,40 @@ _option(Fate("cBot", _number("Pa s/m", at_least=0)), "cb")
 for _axis in "XYZ":
     _option(Fate(f"Current{_axis}", _number("m/s")))
 
-_option(Fate("FrictionCoefficient", _off(_FRICTION)))
-_option(Fate("mu_kT", _off(_FRICTION)))
-_option(Fate("mu_kA", _off(_FRICTION)))
-_option(Fate("WaveKin", _off(_WAVES)))
-_option(Fate("Currents", _off(_WAVES)))
-_option(Fate("WaterKin", _off(_WAVES)))
-_option(Fate("SeafloorFile", _off("bathymetry from a file is", "no file")), "SeafloorPath")
+_option(Fate("SeafloorFile", _file), "SeafloorPath")
+for _axis in "XY":
+    _option(Fate(f"BedSlope{_axis}", _number("rise over run")))
 
-_option(Fate("FrictionModel", _one_of("saturated", "stick"), _NO_FRICTION))
-_option(Fate("mc", _number(at_least=0), _NO_FRICTION), "StatDynFricScale")
-_option(Fate("cv", _number(at_least=0), _NO_FRICTION), "FricDamp")
-_option(Fate("dtWave", _number("s"), _NO_WAVES))
-_option(Fate("waveKin_rampT", _number("s"), _NO_WAVES))
-_option(Fate("UnifyCurrentGrid", _flag, _NO_WAVES))
-_option(Fate("inertialF", _number(), "there are no coupled bodies or rods in this scene"))
-_option(Fate("inertialF_rampT", _number("s"), "there are no coupled bodies or rods in this scene"))
+_option(Fate("FrictionModel", _one_of("saturated", "stick")))
+_option(Fate("FrictionCoefficient", _number(at_least=0)))
+_option(Fate("mu_kT", _number(at_least=0)))
+_option(Fate("mu_kA", _number(at_least=0)))
+_option(Fate("mc", _number(at_least=0)), "StatDynFricScale")
+_option(Fate("cv", _number("N s/m", at_least=0)), "FricDamp")
+
+_option(Fate("BendingModel", _one_of("angle", "paper")))
+
+_option(Fate("WaveModel", _one_of("regular", "jonswap", "elevation", "none")))
+_option(Fate("WaveHeight", _number("m", above=0)))
+_option(Fate("WavePeriod", _number("s", above=0)))
+_option(Fate("WaveDirection", _number("degrees")))
+_option(Fate("WaveGamma", _number(at_least=1)))
+_option(Fate("WaveSeed", _count(0, 999_999_999)))
+_option(Fate("WaveComponents", _count(1, 10_000)))
+_option(Fate("WavePhase", _number("degrees")))
+_option(Fate("WaveElevationFile", _file))
+_option(Fate("WaveRamp", _number("s", at_least=0)), "waveKin_rampT")
+_GRID = "kinematics from a grid of frequencies are not modelled"
+_AT_NODES = "MoorDyn has not built it either"
+_option(Fate("WaveKin", _mode(3, 7, m1="waves set from outside are not modelled", m2=_GRID, m4=_AT_NODES, m5=_AT_NODES, m6=_AT_NODES)))
+_UNSTEADY = "currents that change in time are not modelled"
+_option(Fate("Currents", _mode(1, m2=_UNSTEADY, m3=_AT_NODES, m4=_AT_NODES, m5=_UNSTEADY)))
+_option(Fate("WaterKin", _water_file))
+_option(Fate("dtWave", _number("s", at_least=0)))
+_option(Fate("UnifyCurrentGrid", _flag, _GRIDS))
+
+_option(Fate("inertialF", _number(), _INERTIA))
+_option(Fate("inertialF_rampT", _number("s"), _INERTIA))
 _option(Fate("dtM", _number("s"), _STEP), "DT")
 _option(Fate("CFL", _number(), _STEP))
 _option(Fate("tScheme", _word, "the solver is chosen when the scene is loaded, not by the file"))
@@ -118,13 +163,42 @@ for _name in ("writeLog", "writeUnits", "disableOutput", "disableOutTime", "OutS
 _option(Fate("dtOut", _number("s"), _OUTPUT))
 
 
-def read_options(section: Section) -> tuple[dict[str, object], dict[str, int], list[str]]:
-    """The values by their usual names, the lines they stand in, and a warning for each that is not used.
+class Options:
+    """The options of a file: each is taken by what uses it, what nobody takes is left."""
+
+    def __init__(self, values: dict[str, object], rows: dict[str, Row], heading: Row):
+        self._values = values
+        self._rows = rows
+        self._heading = heading
+
+    def take(self, name: str, otherwise: object = None) -> object:
+        """The value of an option, which is then no longer left."""
+        return self._values.pop(name, otherwise)
+
+    def get(self, name: str, otherwise: object = None) -> object:
+        return self._values.get(name, otherwise)
+
+    def row(self, name: str) -> Row:
+        """The row of an option; that of the section's heading when it is not in the file."""
+        return self._rows.get(name, self._heading)
+
+    def left(self) -> dict[str, object]:
+        return dict(self._values)
+
+    def unused(self, why: str, *names: str) -> list[str]:
+        """A warning for each of the options that is still left, whose row it names."""
+        return [
+            f"{self.row(name).file}:{self.row(name).line}: the option {self.row(name).words[1]} is not used: {why}" for name in names if name in self._values
+        ]
+
+
+def read_options(section: Section) -> tuple[Options, list[str]]:
+    """The options by their usual names, and a warning for each that is never used.
 
     ``default`` as a value is the same as leaving the option out.
     """
     values: dict[str, object] = {}
-    lines: dict[str, int] = {}
+    rows: dict[str, Row] = {}
     warnings: list[str] = []
     for row in section.rows:
         if len(row.words) < 2:
@@ -133,15 +207,15 @@ def read_options(section: Section) -> tuple[dict[str, object], dict[str, int], l
         fate = FATES.get(given.upper())
         if fate is None:
             raise row.error(_unknown(row))
-        if fate.name in lines:
-            raise row.error(f"a second value for {fate.name} (the first is in line {lines[fate.name]}), expected one")
-        lines[fate.name] = row.line
-        if row.words[0].strip("\"'").lower() == DEFAULT:
+        if fate.name in rows:
+            raise row.error(f"a second value for {fate.name} (the first is in line {rows[fate.name].line}), expected one")
+        rows[fate.name] = row
+        if unquoted(row.words[0]).lower() == DEFAULT:
             continue
         values[fate.name] = fate.read(row, given)
         if fate.unused:
             warnings.append(f"{row.file}:{row.line}: the option {given} is not used: {fate.unused}")
-    return values, lines, warnings
+    return Options(values, rows, section.heading), warnings
 
 
 def _unknown(row: Row) -> str:

@@ -60,6 +60,18 @@ class Row:
             raise self.error(f"{what} is '{self.words[index]}', expected a whole number from 1 to {largest}")
         return value
 
+    def parts(self, index: int) -> "Row":
+        """The parts of a word that are separated by bars, as a row of their own."""
+        return Row(self.file, self.line, tuple(self.words[index].split("|")))
+
+    def numbers(self, index: int, what: str, counts: tuple[int, ...], unit: str = "", *, at_least: float | None = None) -> tuple[float, ...]:
+        """The numbers separated by bars in column ``index``; SceneError when there are not as many as one of ``counts``."""
+        parts = self.parts(index)
+        if len(parts.words) not in counts:
+            *most, last = map(str, counts)
+            raise self.error(f"{what} is '{self.words[index]}', expected {', '.join(most)} or {last} numbers separated by |")
+        return tuple(parts.number(part, what, unit, at_least=at_least) for part in range(len(parts.words)))
+
 
 def read_rows(text: str, file: str) -> list[Row]:
     """All rows that hold words, in the order of the file. Lines end as in text editors: LF, CRLF or CR."""

@@ -11,6 +11,11 @@ POINTS = "POINTS"
 LINES = "LINES"
 OPTIONS = "OPTIONS"
 OUTPUTS = "OUTPUTS"
+ROD_TYPES = "ROD TYPES"
+BODIES = "BODIES"
+RODS = "RODS"
+FAILURE = "FAILURE"
+CONTROL = "CONTROL"
 
 # What MoorDyn-C and MoorDyn-F look for in a heading, and the section it opens.
 TITLES = {
@@ -28,21 +33,24 @@ TITLES = {
     "OPTIONS": OPTIONS,
     "OUTPUT": OUTPUTS,
     "OUTPUTS": OUTPUTS,
-    "ROD TYPES": "ROD TYPES",
-    "ROD DICTIONARY": "ROD TYPES",
-    "BODIES": "BODIES",
-    "BODY LIST": "BODIES",
-    "BODY PROPERTIES": "BODIES",
-    "RODS": "RODS",
-    "ROD LIST": "RODS",
-    "ROD PROPERTIES": "RODS",
-    "FAILURE": "FAILURE",
-    "FAILURES": "FAILURE",
-    "CONTROL": "CONTROL",
+    "ROD TYPES": ROD_TYPES,
+    "ROD DICTIONARY": ROD_TYPES,
+    "BODIES": BODIES,
+    "BODY LIST": BODIES,
+    "BODY PROPERTIES": BODIES,
+    "RODS": RODS,
+    "ROD LIST": RODS,
+    "ROD PROPERTIES": RODS,
+    "FAILURE": FAILURE,
+    "FAILURES": FAILURE,
+    "CONTROL": CONTROL,
     "EXTERNAL LOADS": "EXTERNAL LOADS",
     "SYROPE": "SYROPE",
 }
-BUILT = (LINE_TYPES, POINTS, LINES, OPTIONS, OUTPUTS)
+NOT_MODELLED = {
+    "EXTERNAL LOADS": "constant and damping loads on points, rods and bodies",
+    "SYROPE": "Syrope working curves",
+}
 WITHOUT_COLUMN_NAMES = (OPTIONS, OUTPUTS)
 _CLOSING = ("NEED THIS LINE", "END", "")
 _FILE_TITLE = re.compile(r"\b(MOORDYN|MOORING|INPUT|FILE)\b")
@@ -83,8 +91,8 @@ def split_sections(rows: list[Row]) -> tuple[dict[str, Section], list[str]]:
             )
     for kind, section in sections.items():
         _set_rows(section, contents[kind], warnings)
-        if kind not in BUILT and section.rows:
-            raise section.rows[0].error(f"the section {kind} is not built yet, expected no rows in it")
+        if kind in NOT_MODELLED and section.rows:
+            raise section.rows[0].error(f"the section {kind} has rows, expected none: {NOT_MODELLED[kind]} are not modelled")
     return sections, warnings
 
 
