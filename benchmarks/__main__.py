@@ -13,6 +13,7 @@ BENCHMARKS = {
     "closed_forms": "statics and platform stiffness against closed forms",
     "kernel_cost": "ns for one node and force evaluation, against a bare vector kernel",
     "bergdahl": "the 33 m laboratory chain: 30 measured maxima",
+    "rm3_cable": "the RM3 umbilical in waves against MoorDyn and CableDyn: tension and curvature along the cable (a quarter of an hour)",
     "node_latency": "the ROS 2 node: input stamp to wrench, against an empty echo node",
 }
 MODULES = {"node_latency": "latency_table"}  # where it is not the name itself
