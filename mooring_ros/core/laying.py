@@ -5,12 +5,14 @@ its other end, so that pulling it tight mobilises friction towards the anchor fr
 """
 
 from collections import deque
+from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
 
 from .ground import NO_CONTACT, SLIDING, bed_level
-from .model import LOOSE, POINT_FIXED, POINT_FREE
+from .layout import POINT_COUPLED, POINT_FIXED
+from .model import LOOSE
 
 SAMPLES = 4  # of the bed's profile for each segment
 
@@ -26,16 +28,15 @@ class _Edge(NamedTuple):
     length: float  # m
 
 
-def lay(ground, model, end_point, position, grip, links=()):
+def lay(ground, model, end_point, position, grip):
     """Set grip (4, n) to the as-laid places of all nodes of lines that begin at an anchor; to no contact for all others.
 
-    `end_point` (E,) says what holds the lines' ends, `position` (3, n) where the points stand; `links`: (point, point, length) for rigid
-    parts between points, which lie in a row with the lines. A node lies at its unstretched length along the bed's profile. Lines that
-    follow each other through free points lie in a row; one between two anchors is laid from both to its middle. Nodes count as sliding:
-    pulled tight, a line keeps the friction that it slid with.
+    `end_point` (E,) says what holds the lines' ends, `position` (3, n) where the points stand. A node lies at its unstretched length along
+    the bed's profile. Lines that follow each other through free points and rigid parts lie in a row; what lies between two anchors is laid
+    from both to its middle. Nodes count as sliding: pulled tight, a line keeps the friction that it slid with.
     """
     grip[3] = NO_CONTACT
-    edges = _edges(model, end_point, position, links)
+    edges = _edges(model, end_point, position)
     at = {}
     for edge in edges:
         for point in edge.points:
@@ -53,27 +54,38 @@ def lay(ground, model, end_point, position, grip, links=()):
                 waiting.extend(_lay_row(ground, model, row, start, place, grip))
 
 
-def _edges(model, end_point, position, links):
+def _edges(model, end_point, position):
+    """Lines, and links between the points of a rigid part that hold lines or the part itself."""
     edges = []
     for line, (first, count) in enumerate(zip(model.first_node, model.segments)):
         nodes = np.arange(first, first + count + 1)
         arc = np.concatenate([[0.0], np.cumsum(model.length[first + 1 : first + count + 1])])
         points = (int(end_point[2 * line]), int(end_point[2 * line + 1]))
         edges.append(_Edge(len(edges), points, (position[:, nodes[0]], position[:, nodes[-1]]), nodes, arc, arc[-1]))
-    for a, b, length in links:
-        ends = (position[:, model.point_node[a]], position[:, model.point_node[b]])
-        edges.append(_Edge(len(edges), (a, b), ends, np.zeros(0, dtype=np.int64), np.zeros(0), float(length)))
+    part, place = model.rigid.part.copy(), model.point_place.copy()
+    for index, pin in enumerate(model.rigid.pin):
+        if pin >= 0:
+            part[pin], place[pin] = index, 0.0
+    for pair in combinations(np.unique(end_point[end_point != LOOSE]).tolist() + [int(p) for p in model.rigid.pin if p >= 0], 2):
+        if pair[0] != pair[1] and part[pair[0]] == part[pair[1]] >= 0:
+            ends = tuple(position[:, model.point_node[p]] for p in pair)
+            length = float(np.linalg.norm(place[pair[1]] - place[pair[0]]))
+            edges.append(_Edge(len(edges), pair, ends, np.zeros(0, dtype=np.int64), np.zeros(0), length))
     return edges
 
 
+def _held(model, point):
+    return point == LOOSE or model.point_kind[point] in (POINT_FIXED, POINT_COUPLED)
+
+
 def _row_from(edge, point, at, done, model):
-    """The shortest way from `point` along `edge` through free points to one that is held: list of (edge, which end comes first)."""
+    """The shortest way from `point` along `edge` through free points and parts to one that is held: list of (edge, which end comes first)."""
     waiting, seen, row = deque([[(edge, edge.points.index(point))]]), {point}, []
     while waiting:
         row = waiting.popleft()
         last, first = row[-1]
         far = last.points[1 - first]
-        if far == LOOSE or model.point_kind[far] != POINT_FREE:
+        if _held(model, far):
             return row
         if far not in seen:
             seen.add(far)
@@ -102,7 +114,7 @@ def _lay_row(ground, model, row, start, place, grip):
             _lie(back, total - arc[beyond], edge.nodes[beyond], grip)
         passed += edge.length
         point = edge.points[1 - first]
-        if point != LOOSE and model.point_kind[point] == POINT_FREE:
+        if not _held(model, point):
             node, arc = np.array([model.point_node[point]]), np.array([passed])
             if back is not None and passed > 0.5 * total:
                 _lie(back, total - arc, node, grip)
