@@ -118,10 +118,12 @@ def test_forces_of_the_water_on_the_laboratory_chain_are_those_of_its_published_
 
 
 @pytest.mark.parametrize("path", SCENES, ids=lambda path: path.stem)
-def test_a_scene_is_read_by_moordyn_itself(path, tmp_path):
+def test_a_scene_is_read_by_moordyn_itself(path, tmp_path, monkeypatch):
     moordyn = pytest.importorskip("moordyn")
     scene = load_scene(path)
-    system = moordyn.Create(str(shutil.copy(path, tmp_path)))  # it writes its files beside the scene
+    shutil.copytree(FOLDER, tmp_path, dirs_exist_ok=True)  # it writes its files beside the scene
+    monkeypatch.chdir(tmp_path)  # from where it looks for the files that a scene names
+    system = moordyn.Create(str(tmp_path / path.name))
     try:
         assert moordyn.GetNumberLines(system) == len(scene.lines)
         for line in scene.lines:
