@@ -64,11 +64,11 @@ def parse_scene(text: str, path: str | os.PathLike = "scene", files: Iterable[tu
     environment, more = build_environment(options, others)
     warnings += more
 
+    warnings += check_bodies(file, bodies, environment)
     points, more = place_points(file, points, on_the_bed, bodies, environment)
     warnings += more
     rods, more = place_rods(file, rods, bodies, environment)
     warnings += more
-    warnings += check_bodies(file, bodies, environment)
     warnings += check_holding(file, points, rods, bodies, lines)
     check_masses(file, points, rods, bodies)
     if not any(line.type.bending_stiffness for line in lines):

@@ -80,7 +80,8 @@ def _check(file: str, part: Point | Rod | Body, kind: str, places: list[Place], 
             if kind == FIXED:
                 warnings.append(f"{file}:{part.source_line}: {part.name} at z = {z:g} m is below the bed (z = {level:g} m) and stays there")
             else:
-                what = f"{kind} point {part.id}" if isinstance(part, Point) and part.kind == kind else f"{kind} {part.name}"
+                name = f"point {part.id}" if isinstance(part, Point) else part.name
+                what = f"{name} of the {kind} body {part.body}" if part.kind == BODY else f"{kind} {name}"
                 raise SceneError(file, part.source_line, f"{what} at z = {z:g} m is below the bed, expected z >= {level:g} m there")
 
 
