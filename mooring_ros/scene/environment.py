@@ -14,15 +14,22 @@ _FRICTION = ("FrictionModel", "mc", "cv", "mu_kA", "mu_kT", "FrictionCoefficient
 _USUAL_RAMP = 200.0  # N s/m, MoorDyn's cv
 _USUAL_WAVE_STEP = 0.25  # s, MoorDyn-C's dtWave
 
-# What each of our own sea states needs, and what it may have besides: option -> field of Waves
-_NEEDED = {REGULAR: ("WaveHeight", "WavePeriod"), JONSWAP: ("WaveHeight", "WavePeriod"), ELEVATION: ("WaveElevationFile",)}
-_FIELDS = {"WaveHeight": "height", "WavePeriod": "period", "WaveGamma": "peakedness", "WaveSeed": "seed", "WaveComponents": "components"}
-_ALLOWED = {
-    REGULAR: ("WaveHeight", "WavePeriod"),
-    JONSWAP: ("WaveHeight", "WavePeriod", "WaveGamma", "WaveSeed", "WaveComponents"),
-    ELEVATION: (),
+# Our own seas: the options that each needs, and those that it may have besides
+_SEAS = {
+    REGULAR: (("WaveHeight", "WavePeriod"), ("WavePhase",)),
+    JONSWAP: (("WaveHeight", "WavePeriod"), ("WaveGamma", "WaveSeed", "WaveComponents")),
+    ELEVATION: (("WaveElevationFile",), ()),
 }
-_OWN_WAVES = (*_FIELDS, "WaveDirection", "WavePhase", "WaveElevationFile")
+_FIELDS = {
+    "WaveHeight": "height",
+    "WavePeriod": "period",
+    "WavePhase": "phase",
+    "WaveGamma": "peakedness",
+    "WaveSeed": "seed",
+    "WaveComponents": "components",
+    "WaveElevationFile": "elevation",
+}
+_OWN_WAVES = (*_FIELDS, "WaveDirection")
 
 
 def build_environment(options: Options, files: Files) -> tuple[Environment, list[str]]:
@@ -131,13 +138,14 @@ def _moordyn_elevation(options: Options, files: Files, warnings: list[str]) -> t
 
 
 def _own_waves(options: Options, files: Files, model: str) -> Waves:
-    for name in _NEEDED[model]:
+    needed, besides = _SEAS[model]
+    for name in needed:
         if not options.get(name):
-            row = options.row("WaveModel")
-            raise row.error(f"the sea is {model} without {name}, expected an option like '{8 if name != 'WaveElevationFile' else 'eta.txt'} {name}'")
-    fields = {_FIELDS[name]: options.take(name) for name in _ALLOWED[model] if options.get(name) is not None}
-    if model == REGULAR and options.get("WavePhase") is not None:
-        fields["phase"] = math.radians(options.take("WavePhase"))
-    if model == ELEVATION:
-        fields["elevation"] = read_elevation(files, options.row("WaveElevationFile"), options.take("WaveElevationFile"))
+            example = "eta.txt" if name == "WaveElevationFile" else "8"
+            raise options.row("WaveModel").error(f"the sea is {model} without {name}, expected an option like '{example} {name}'")
+    fields = {_FIELDS[name]: options.take(name) for name in (*needed, *besides) if options.get(name) is not None}
+    if "phase" in fields:
+        fields["phase"] = math.radians(fields["phase"])
+    if "elevation" in fields:
+        fields["elevation"] = read_elevation(files, options.row("WaveElevationFile"), fields["elevation"])
     return Waves(model, direction=math.radians(options.take("WaveDirection", 0.0)), **fields)

@@ -59,7 +59,7 @@ class Files:
     def rows(self, asked: Row, name: str, what: str) -> list[Row]:
         """The rows of the file that the row ``asked`` of the scene names. Commas separate words as spaces do."""
         name = unquoted(name)
-        path = os.path.join(self._folder, name)
+        path = self._path(name)
         if name not in self._read:
             self._read[name] = self._text(asked, name, path, what)
         rows = read_rows(self._read[name].replace(",", " "), path)
@@ -82,8 +82,11 @@ class Files:
             if len(row.words) != len(columns):
                 raise row.error(f"{len(row.words)} columns, expected {len(columns)}: {names}")
         if len(rows) < 2:
-            raise SceneError(os.path.join(self._folder, unquoted(name)), 0, f"{len(rows)} rows of numbers, expected two at least: {names}")
+            raise SceneError(self._path(unquoted(name)), 0, f"{len(rows)} rows of numbers, expected two at least: {names}")
         return rows
+
+    def _path(self, name: str) -> str:
+        return os.path.join(self._folder, name.replace("\\", "/"))  # decks come from Windows, too
 
     def _text(self, asked: Row, name: str, path: str, what: str) -> str:
         if self._given is not None:

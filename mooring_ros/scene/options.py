@@ -187,9 +187,8 @@ class Options:
 
     def unused(self, why: str, *names: str) -> list[str]:
         """A warning for each of the options that is still left, whose row it names."""
-        return [
-            f"{self.row(name).file}:{self.row(name).line}: the option {self.row(name).words[1]} is not used: {why}" for name in names if name in self._values
-        ]
+        rows = [self._rows[name] for name in names if name in self._values]
+        return [f"{row.file}:{row.line}: the option {row.words[1]} is not used: {why}" for row in rows]
 
 
 def read_options(section: Section) -> tuple[Options, list[str]]:

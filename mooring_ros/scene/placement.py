@@ -31,9 +31,9 @@ def place_points(
             body = by_id[point.body]
             _check(file, point, body.kind, [_carried(body, point.position)], environment, warnings)
         elif point.kind == FIXED and _is_below(point.position, environment):
-            level = bed_level(environment, *point.position[:2])
-            warnings.append(f"{file}:{point.source_line}: point {point.id} at z = {point.position[2]:g} m is below the bed, it is set on it (z = {level:g} m)")
-            point = _set_on_bed(point, environment)
+            z, point = point.position[2], _set_on_bed(point, environment)
+            level = point.position[2]
+            warnings.append(f"{file}:{point.source_line}: point {point.id} at z = {z:g} m is below the bed, it is set on it (z = {level:g} m)")
         else:
             _check(file, point, point.kind, [point.position], environment, warnings)
         placed.append(point)

@@ -7,6 +7,8 @@ from .description import BODY, COUPLED_PINNED, FREE, PINNED, Body, Line, LineTyp
 from .errors import SceneError
 from .tables import LineRow
 
+_MISSING = "which does not exist, expected one of the IDs in the section"
+
 
 def resolve_lines(rows: tuple[LineRow, ...], line_types: tuple[LineType, ...], points: tuple[Point, ...], rods: tuple[Rod, ...]) -> tuple[Line, ...]:
     """Lines with their types and ends looked up; SceneError when one is missing or both ends are the same place."""
@@ -21,9 +23,9 @@ def resolve_lines(rows: tuple[LineRow, ...], line_types: tuple[LineType, ...], p
         for end, holder in (("A", line.end_a), ("B", line.end_b)):
             if isinstance(holder, RodEnd):
                 if holder.rod not in rod_ids:
-                    raise line.row.error(f"end {end} is attached to rod {holder.rod}, which does not exist, expected one of the IDs in the section RODS")
+                    raise line.row.error(f"end {end} is attached to rod {holder.rod}, {_MISSING} RODS")
             elif holder not in point_ids:
-                raise line.row.error(f"end {end} is attached to point {holder}, which does not exist, expected one of the IDs in the section POINTS")
+                raise line.row.error(f"end {end} is attached to point {holder}, {_MISSING} POINTS")
         if line.end_a == line.end_b:
             raise line.row.error(f"both ends are attached to {_name(line.end_a)}, expected two different places")
         lines.append(Line(line.id, types[line.type_name], line.end_a, line.end_b, line.length, line.segments, line.row.line))
@@ -39,9 +41,7 @@ def check_carriers(file: str, points: tuple[Point, ...], rods: tuple[Rod, ...], 
     ids = {body.id for body in bodies}
     for part in (*points, *rods):
         if part.kind == BODY and part.body not in ids:
-            raise SceneError(
-                file, part.source_line, f"{part.name} is attached to body {part.body}, which does not exist, expected one of the IDs in the section BODIES"
-            )
+            raise SceneError(file, part.source_line, f"{part.name} is attached to body {part.body}, {_MISSING} BODIES")
 
 
 def check_holding(file: str, points: tuple[Point, ...], rods: tuple[Rod, ...], bodies: tuple[Body, ...], lines: tuple[Line, ...]) -> list[str]:
@@ -105,5 +105,6 @@ def check_masses(file: str, points: tuple[Point, ...], rods: tuple[Rod, ...], bo
         if body.mass <= 0 and not own_rods and not own_points:
             raise SceneError(file, body.source_line, f"free {body.name} has no mass, expected one > 0 kg, or rods or points with mass on it")
         if min(body.inertia) <= 0 and not own_rods:
-            raise SceneError(file, body.source_line, f"free {body.name} has no moment of inertia about some axis, expected one > 0 kg m^2, or a rod on it")
+            missing = "has no moment of inertia about some axis, expected one > 0 kg m^2, or a rod on it"
+            raise SceneError(file, body.source_line, f"free {body.name} {missing}")
 

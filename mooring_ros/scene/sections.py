@@ -86,9 +86,8 @@ def split_sections(rows: list[Row]) -> tuple[dict[str, Section], list[str]]:
             else:
                 contents[kind].append(row)
         elif sections:
-            raise row.error(
-                f"'{row.words[0]}' stands after the end of a section, expected a section heading (--- TITLE ---), a comment (# ...) or the end of the file"
-            )
+            expected = "expected a section heading (--- TITLE ---), a comment (# ...) or the end of the file"
+            raise row.error(f"'{row.words[0]}' stands after the end of a section, {expected}")
     for kind, section in sections.items():
         _set_rows(section, contents[kind], warnings)
         if kind in NOT_MODELLED and section.rows:

@@ -145,7 +145,8 @@ def _current_of(files: Files, rows: list[Row]) -> Profile:
         if min(heights) < 0:
             raise rows[0].error("the table of the current has z above and below 0, expected z <= 0 (or depths >= 0 in all rows)")
         values = [(row, (0.0 - z, *velocity)) for row, (z, *velocity) in values]
-        files.warnings.append(f"{values[0][0].file}:{values[0][0].line}: the numbers > 0 in the table of the current are taken as depths below the water")
+        first = values[0][0]
+        files.warnings.append(f"{first.file}:{first.line}: the numbers > 0 in the table of the current are taken as depths below the water")
     return _growing(values)
 
 

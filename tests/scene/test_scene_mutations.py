@@ -10,7 +10,8 @@ from mooring_ros.scene import RodEnd, SceneError, parse_scene
 
 from .decks import FILES, FULL, PLAIN
 
-JUNK = ["abc", "nan", "inf", "-1", "0", "1e400", "---", "#", "|", "1|2", "x.txt", "\u00b2", "(", "'", "P", "1.", "END", "9" * 400, "", "%d", "R1A", "Body1"]
+JUNK = ["abc", "nan", "inf", "-1", "0", "1e400", "---", "#", "|", "1|2", "x.txt", "\u00b2", "(", "'", "P", "1."]
+JUNK += ["END", "9" * 400, "", "%d", "R1A", "Body1"]
 DECKS = {"plain": (PLAIN, {}), "full": (FULL, FILES)}
 
 

@@ -5,12 +5,16 @@ import dataclasses
 import pickle
 import random
 import re
+from pathlib import Path
 
 import pytest
 
 from mooring_ros.scene import COUPLED, FIXED, FREE, Environment, Line, LineType, Point, load_scene, parse_scene
+from mooring_ros.scene.options import FATES
 
 from .decks import PLAIN, line_of, swap
+
+PAGE = Path(__file__).parents[2] / "docs" / "scene.md"
 
 
 def parts(scene):
@@ -140,7 +144,9 @@ def test_anchors_may_be_rounded_onto_the_bed():
     assert parse_scene(swap("400.0  0     -100 ", "400.0  0     -100.005 ")).points[0].position[2] == -100.005
 
 
-@pytest.mark.parametrize("text", [PLAIN, VARIANTS["CRLF"], VARIANTS["byte order mark"], PLAIN + "# µ, m³, 180°\n"], ids=["plain", "CRLF", "BOM", "UTF-8"])
+@pytest.mark.parametrize(
+    "text", [PLAIN, VARIANTS["CRLF"], VARIANTS["byte order mark"], PLAIN + "# µ, m³, 180°\n"], ids=["plain", "CRLF", "BOM", "UTF-8"]
+)
 def test_the_scene_holds_the_bytes_of_its_file(tmp_path, text):
     path = tmp_path / "deck.txt"
     path.write_bytes(text.encode("utf-8"))
@@ -157,3 +163,9 @@ def test_scenes_are_values():
     assert scene != parse_scene(swap("420.5", "420.6"))
     with pytest.raises(dataclasses.FrozenInstanceError):
         scene.path = "other"
+
+
+def test_every_option_that_counts_stands_in_the_documentation():
+    page = PAGE.read_text(encoding="utf-8")
+    missing = {fate.name for fate in FATES.values() if not fate.unused and f"`{fate.name}`" not in page}
+    assert not missing
