@@ -305,3 +305,18 @@ def test_only_regular_files_of_bounded_size_are_read(tmp_path):
     with pytest.raises(SceneError, match=r"the file 'bed.txt': is larger than 16 MiB"):
         load_scene(path)
     assert "not a text file" in error_of(with_options("bed.txt SeafloorFile"), {"bed.txt": "3 2\n\0"}).message
+
+
+def test_the_bed_is_that_of_moordyn(tmp_path, monkeypatch):
+    moordyn = pytest.importorskip("moordyn")
+    monkeypatch.chdir(tmp_path)  # MoorDyn-C looks for the file from where it runs
+    (tmp_path / "bed.txt").write_text(OF_PLACES)
+    (tmp_path / "deck.txt").write_text(with_options("bed.txt SeafloorFile").replace("7  rope", "3  rope"))
+    environment = load_scene("deck.txt").environment
+    system = moordyn.Create("deck.txt")
+    try:
+        bed = moordyn.GetSeafloor(system)
+        for x, y in np.random.default_rng(1).uniform(-900, 900, (100, 2)):
+            assert bed_level(environment, x, y) == pytest.approx(moordyn.GetDepthAt(bed, x, y), abs=1e-9)
+    finally:
+        moordyn.Close(system)
