@@ -4,17 +4,11 @@ Our own options are turned into what MoorDyn reads: a sea into the components of
 a grid of depths into ``seafloor.txt``. Decks are split at blanks only, so no tabs are written.
 """
 
+from pathlib import Path
+
 import numpy as np
 
-from mooring_ros.scene.description import (
-    BODY,
-    COUPLED,
-    COUPLED_PINNED,
-    FIXED,
-    FREE,
-    PINNED,
-    RodEnd,
-)
+from mooring_ros.scene.description import BODY, COUPLED, COUPLED_PINNED, FIXED, FREE, PINNED, RodEnd
 
 KINDS = {FIXED: "Fixed", COUPLED: "Coupled", FREE: "Free", PINNED: "Pinned", COUPLED_PINNED: "CoupledPinned"}
 SEAFLOOR = "seafloor.txt"
@@ -26,8 +20,11 @@ class DeckError(RuntimeError):
     """The scene holds what a deck for MoorDyn cannot carry."""
 
 
-def deck(scene, dt, scheme="RK2", segments=None, damping=None, options=(), friction=True):
-    """The scene as MoorDyn's input text, with internal step dt (s); segments and damping (BA) override those of the file."""
+def deck(scene, dt, scheme="RK2", segments=None, damping=None, options=(), friction=True, folder="."):
+    """The scene as MoorDyn's input text, with internal step dt (s); segments and damping (BA) override those of the file.
+
+    ``folder``: where its `files` will stand; MoorDyn takes the grid of depths relative to the working directory, not to the deck.
+    """
     env = scene.environment
     if any(env.current) or env.current_profile:
         raise DeckError("the peer deck does not carry a current")
@@ -48,7 +45,7 @@ def deck(scene, dt, scheme="RK2", segments=None, damping=None, options=(), frict
     rows += [f"{value} {name}" for name, value in RELAXATION.items()]
     rows += ["0 writeLog", "1 disableOutput", "1 disableOutTime"]
     if env.bathymetry is not None:
-        rows.append(f"{SEAFLOOR} SeafloorFile")
+        rows.append(f"{Path(folder, SEAFLOOR)} SeafloorFile")
     if env.waves is not None:
         rows.append("7 WaveKin")
     if env.friction is not None and friction:

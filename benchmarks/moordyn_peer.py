@@ -65,7 +65,7 @@ def run(scene, motion, dt, scheme="RK2", segments=None, damping=None, steps_per_
 
     with tempfile.TemporaryDirectory(prefix="moordyn_") as folder, _silence():
         try:
-            texts = {"lines.txt": deck(scene, dt, scheme, segments, damping, options, friction), **files(scene)}
+            texts = {"lines.txt": deck(scene, dt, scheme, segments, damping, options, friction, folder), **files(scene)}
             drive = _Drive(scene, motion, call, calls)
         except DeckError as error:
             raise PeerError(str(error)) from None

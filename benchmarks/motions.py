@@ -40,22 +40,27 @@ class Periodic:
 
 @dataclass(frozen=True)
 class SurgeHeave(Periodic):
-    """Surge ``sin`` and heave ``cos`` at one period: the reference point runs an ellipse, ramped up smoothly from rest at the zero pose."""
+    """Surge ``sin`` and heave ``cos`` at one period: the reference point runs an ellipse, ramped up smoothly from rest at the zero pose.
+
+    With a ``heading`` other than 0 the surge is along it, in degrees from x towards y.
+    """
 
     surge: float = 4.0  # m, amplitude
     heave: float = 3.0  # m, amplitude
     period: float = 14.5  # s
     ramp_periods: float = 3.0
     measured_periods: float = 4.0
+    heading: float = 0.0
 
     def displacement(self, t):
         """Displacement (n, 3) in m and velocity (n, 3) in m/s of the platform at the times t (n,)."""
         t = np.asarray(t, dtype=float)
         w = 2.0 * np.pi / self.period
         factor, rate = smooth_ramp(t, self.start)
-        zero = np.zeros_like(t)
-        shape = np.stack([self.surge * np.sin(w * t), zero, self.heave * np.cos(w * t)], axis=1)
-        slope = w * np.stack([self.surge * np.cos(w * t), zero, -self.heave * np.sin(w * t)], axis=1)
+        x, y = np.cos(np.deg2rad(self.heading)), np.sin(np.deg2rad(self.heading))
+        along, rate_along = self.surge * np.sin(w * t), self.surge * np.cos(w * t)
+        shape = np.stack([x * along, y * along, self.heave * np.cos(w * t)], axis=1)
+        slope = w * np.stack([x * rate_along, y * rate_along, -self.heave * np.sin(w * t)], axis=1)
         return factor[:, None] * shape, factor[:, None] * slope + rate[:, None] * shape
 
 

@@ -49,8 +49,3 @@ class SeaMotion:
         place, velocity = self._unramped(t)
         factor, rate = smooth_ramp(t, self.ramp)
         return factor[:, None] * place, factor[:, None] * velocity + rate[:, None] * place
-
-    def acceleration(self, t):
-        """Acceleration (n, 3) in m/s^2 at the times t (n,), by differences of the velocity."""
-        t, h = np.asarray(t, dtype=float), 1e-4
-        return (self.displacement(t + h)[1] - self.displacement(np.maximum(t - h, 0.0))[1]) / (h + np.minimum(t, h))[:, None]
