@@ -14,6 +14,9 @@ BENCHMARKS = {
     "kernel_cost": "ns for one node and force evaluation, against a bare vector kernel",
     "bergdahl": "the 33 m laboratory chain: 30 measured maxima",
     "rm3_cable": "the RM3 umbilical in waves against MoorDyn and CableDyn: tension and curvature along the cable (a quarter of an hour)",
+    "bathymetry": "the VolturnUS-S semi-taut mooring on four beds without friction, against MoorDyn and CableDyn",
+    "friction": "bed friction along and across a chain and in waves: both laws, closed form, CableDyn",
+    "iswec": "load and excursion of the two ISWEC moorings, against MoorPy",
     "node_latency": "the ROS 2 node: input stamp to wrench, against an empty echo node",
 }
 MODULES = {"node_latency": "latency_table"}  # where it is not the name itself
