@@ -36,6 +36,16 @@ def kernel(function):
     return numba.njit(cache=True, nogil=True, error_model="numpy", _nrt=False)(function)
 
 
-def stage(function):
-    """Compile a part of a kernel: as `kernel`, always inlined, because passing the tuples of arrays costs more than many a part."""
+def formula(function):
+    """Compile a small function of few numbers and tuples: as `kernel`, always inlined."""
     return numba.njit(cache=True, nogil=True, error_model="numpy", forceinline=True, _nrt=False)(function)
+
+
+def stage(function):
+    """Compile a part of a kernel: as `formula`, because passing the tuples of arrays costs more than many a part does.
+
+    Not callable from Python: unpacking the tuples there is most of what such a function takes to compile.
+    """
+    return numba.njit(
+        cache=True, nogil=True, error_model="numpy", forceinline=True, _nrt=False, no_cpython_wrapper=True, no_cfunc_wrapper=True
+    )(function)

@@ -3,11 +3,12 @@
 import numpy as np
 
 from .cache import kernel, stage
+from .failures import part
 from .forces import evaluate, evaluate_once
-from .guard import EVEN, FASTEST, IMPLAUSIBLE, TORN, UNEVEN, keep_tension, overstretched, recall, runaway, save, speed_of_ends, tension_jumped
+from .guard import EVEN, FASTEST, IMPLAUSIBLE, TORN, UNEVEN, copy_row, keep_tension, overstretched, recall, runaway, save, speed_of_ends, tension_jumped
 from .platform import start_motion
 from .points import place_coupled_points, place_staggered_coupled_points, speed_coupled_points
-from .readings import show
+from .readings import observe
 from .rigid import copy_parts, euler_parts, mix_parts
 from .schemes import LEAPFROG
 from .seabed import set_bed_relief
@@ -69,7 +70,18 @@ def start_step(model, state, scratch):
         for i in range(model.size):
             scratch.position[k, i] = state.position[k, i]
             scratch.velocity[k, i] = state.velocity[k, i]
-    copy_parts(state.parts, scratch.parts)
+    if state.parts.size > 0:
+        copy_parts(state.parts, scratch.parts)
+    copy_row(state.creep, scratch.creep)
+
+
+@stage
+def euler_others(model, state, h, staggered):
+    """An Euler step of h (s) of what moves besides the nodes."""
+    if state.parts.size > 0:
+        euler_parts(state.parts, state.parts_acceleration, h, staggered)
+    for i in range(state.creep.size):
+        state.creep[i] += h * state.creep_rate[i]
 
 
 @stage
@@ -79,7 +91,7 @@ def euler_stage(model, state, h):
         for i in range(model.size):
             position[k, i] += h * velocity[k, i]
             velocity[k, i] += h * acceleration[k, i]
-    euler_parts(model, state, h, False)
+    euler_others(model, state, h, False)
 
 
 @stage
@@ -92,8 +104,11 @@ def last_stage(model, state, scratch, h, stages):
         for i in range(model.size):
             position[k, i] = old * scratch.position[k, i] + new * (position[k, i] + h * velocity[k, i])
             velocity[k, i] = old * scratch.velocity[k, i] + new * (velocity[k, i] + h * acceleration[k, i])
-    euler_parts(model, state, h, False)
-    mix_parts(model, state, scratch.parts, old)
+    euler_others(model, state, h, False)
+    if state.parts.size > 0:
+        mix_parts(state.parts, scratch.parts, old)
+    for i in range(state.creep.size):
+        state.creep[i] = old * scratch.creep[i] + new * state.creep[i]
 
 
 @stage
@@ -103,13 +118,23 @@ def leapfrog_stage(model, state, h):
         for i in range(model.size):
             velocity[k, i] += h * acceleration[k, i]
             position[k, i] += h * velocity[k, i]
-    euler_parts(model, state, h, True)
+    euler_others(model, state, h, True)
 
 
 @stage
 def set_time(state, scratch, s):
     """Tell the evaluations that they stand at s in 0..1 of the interval."""
     state.settings[6] = state.clock[0] + s * scratch.motion[7, 0]
+
+
+@kernel
+def let_go(model, state, scratch):
+    """Let lines part that are due."""
+    parted = part(
+        model.failures, state.settings[6], state.tension, state.end_point, model.end_node, state.position, state.velocity, model.point_node, state.failed
+    )
+    if parted > 0:
+        evaluate_again(model, state, scratch)
 
 
 @stage
@@ -142,6 +167,8 @@ def take_steps(model, state, scratch, evaluations, h, steps, start, ds):
             set_time(state, scratch, now)
             evaluate(model, state, scratch, state.settings[0], state.settings[1], state.settings[2] != 0.0)
         worst = max(worst, tension_jumped(model, state, scratch, JUMP))
+        if model.failures.point.size > 0:
+            let_go(model, state, scratch)
     return worst
 
 
@@ -231,5 +258,5 @@ def run(model, state, scratch, table, times, poses, twists, report, readings):
         status = advance(model, state, scratch, table, times[sample], poses[sample], twists[sample], report)
         if status != DONE:
             return status, sample
-        show(model, state, sample, readings)
+        observe(model, state, sample, readings)
     return DONE, times.size

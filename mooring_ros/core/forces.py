@@ -4,6 +4,7 @@ from .cache import kernel, stage
 from .inertia import accelerations
 from .points import carry_ends, gather, hold_prescribed, move_free_points
 from .rigid import carry_parts, move_parts
+from .ropes import SETTLED, rope_tensions
 from .seabed import bed_contact
 from .surface import wet_shares
 from .tension import pull_on_nodes, segment_tensions
@@ -20,6 +21,11 @@ def evaluate(model, state, scratch, drag_time, bed_step, surfaced):
         carry_parts(model, state)
     carry_ends(model, state)
     segment_tensions(model, state)
+    if model.ropes.curve_first.size + model.ropes.kelvin_first.size > 0:
+        rope_step = SETTLED if state.settings[7] != 0.0 else bed_step
+        rope_tensions(
+            model.ropes, rope_step, state.position, model.inverse_length, model.damping, state.strain_rate, state.tension, state.creep, state.creep_rate
+        )
     pull_on_nodes(model, state)
     if surfaced:
         wet_shares(model, state, scratch)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .cache import stage
+from .cache import kernel, stage
 from .rigid import copy_parts
 
 EVEN, UNEVEN, TORN = 0, 1, 2
@@ -45,6 +45,12 @@ def overstretched(model, state, strain):
 
 
 @stage
+def copy_row(source, target):
+    for i in range(source.size):
+        target[i] = source[i]
+
+
+@kernel
 def save(model, state, scratch, place):
     """Keep what moves, in the first (0) or second (1) place."""
     copy = scratch.saved[place]
@@ -53,9 +59,12 @@ def save(model, state, scratch, place):
             copy[k, i] = state.position[k, i]
             copy[3 + k, i] = state.velocity[k, i]
     copy_parts(state.parts, scratch.saved_parts[place])
+    copy_row(state.creep, scratch.saved_creep[place])
+    copy_row(state.end_point, scratch.saved_ends[place])
+    copy_row(state.failed, scratch.saved_failed[place])
 
 
-@stage
+@kernel
 def recall(model, state, scratch, place):
     copy = scratch.saved[place]
     for k in range(3):
@@ -63,6 +72,9 @@ def recall(model, state, scratch, place):
             state.position[k, i] = copy[k, i]
             state.velocity[k, i] = copy[3 + k, i]
     copy_parts(scratch.saved_parts[place], state.parts)
+    copy_row(scratch.saved_creep[place], state.creep)
+    copy_row(scratch.saved_ends[place], state.end_point)
+    copy_row(scratch.saved_failed[place], state.failed)
 
 
 @stage

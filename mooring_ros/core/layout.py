@@ -69,6 +69,7 @@ class RodNodes:
     length: float  # m
     axis: np.ndarray
     free_joint: bool  # of length zero and free to turn: it hands moments from line to line
+    part: int  # that turns it, or NO_PART
 
 
 class Layout:
@@ -105,6 +106,23 @@ class Layout:
 
     def is_coupled(self, end):
         return self.points[self.holder(end)].kind == POINT_COUPLED
+
+    def clamps(self, scene):
+        """[(line end, internal point, axis (3,) into the line in the axes of what turns it, part or NO_PART)] of all lines that bend at rods."""
+        found = []
+        for end, at in _bending_ends(scene):
+            rod = self.rods[at.rod]
+            if rod.axis.any() and not rod.free_joint:
+                found.append((end, self.holder(at), rod.axis if at.end == "B" else -rod.axis, rod.part))
+        return found
+
+    def joints(self, scene):
+        """[(internal point, [(line end, 1.0 or -1.0: the line leaves on the side of end B or of end A)])] of rods of length zero that may turn."""
+        members = {}
+        for end, at in _bending_ends(scene):
+            if self.rods[at.rod].free_joint:
+                members.setdefault(self.holder(at), []).append((end, 1.0 if at.end == "B" else -1.0))
+        return list(members.items())
 
     # -- carriers ---------------------------------------------------------------------------------------------------------------------
 
@@ -158,7 +176,7 @@ class Layout:
         output = self._output(rod.name, first) if carried[0][0] == POINT_COUPLED else -1
         for kind, place, part in carried:
             self.points.append(Place(kind, place, part, attachment=output if kind == POINT_COUPLED else -1))
-        self.rods[rod.id] = RodNodes(rod.type, range(first, len(self.points)), length, axis, free_joint)
+        self.rods[rod.id] = RodNodes(rod.type, range(first, len(self.points)), length, axis, free_joint, carried[-1][2])
 
     def _free_rod(self, rod, a, span, places):
         """The nodes of a rod that is a part of its own; a pinned one keeps its end A on a fixed or coupled point."""
@@ -205,6 +223,14 @@ class Layout:
         if body.kind == COUPLED:
             weight.attachment = volume.attachment = self._output(body.name, first + 1, rotation @ inertia @ rotation.T)
         self.points += [weight, volume]
+
+
+def _bending_ends(scene):
+    """(line end, RodEnd) of every end of a line with bending stiffness that is held by a rod."""
+    for index, line in enumerate(scene.lines):
+        for side, at in enumerate((line.end_a, line.end_b)):
+            if line.type.bending_stiffness > 0.0 and isinstance(at, RodEnd):
+                yield 2 * index + side, at
 
 
 def turned(quaternion, vector):

@@ -13,7 +13,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .failures import Failures, build_failures, failure_rows
 from .layout import POINT_COUPLED, POINT_FREE, POINT_RIDING, Layout
+from .ropes import Ropes, build_ropes, rope_damping
 
 LANES = 8  # nodes: a whole number of vectors
 LOOSE = -1  # an end that nothing holds any more
@@ -82,6 +84,8 @@ class Model(NamedTuple):
     segments: np.ndarray
     fairlead_end: np.ndarray  # 0 or 1: which end of the line is its fairlead
     rigid: Rigid
+    ropes: Ropes
+    failures: Failures
 
 
 class State(NamedTuple):
@@ -101,6 +105,8 @@ class State(NamedTuple):
     tangent: np.ndarray  # (3, n): unit vectors of the segments, null for null segments
     tension: np.ndarray  # (n,), N, of the segments
     strain_rate: np.ndarray  # (n,), m/s: rate of the segments' stretched length
+    creep: np.ndarray  # (n,), strain of the slow elements of viscoelastic ropes; (0,) without any
+    creep_rate: np.ndarray  # (n,), 1/s
     stream: np.ndarray  # (3, n), m/s: velocity of the water at the nodes
     swell: np.ndarray  # (4, n): its acceleration (m/s^2) and the surface's elevation (m); (4, 0) without waves
     wet: np.ndarray  # (n,), wet share of the nodes, 0..1
@@ -108,7 +114,8 @@ class State(NamedTuple):
     inertia_axial: np.ndarray  # (n,), kg
     bed_relief: np.ndarray  # (n,): factor on the vertical acceleration of a node in contact, 0..1
     end_point: np.ndarray  # (E,) index of the point that holds the end, or LOOSE
-    settings: np.ndarray  # (7,) drag time (s), Euler step of stiff local laws (s), 1 if wet shares are computed; refinement of the step, kept until (s); largest strain; time of the evaluation (s)
+    failed: np.ndarray  # (F,) 1 for a failure that has happened
+    settings: np.ndarray  # (8,) drag time (s), Euler step of stiff local laws (s), 1 if wet shares are computed; refinement of the step, kept until (s); largest strain; time of the evaluation (s), 1 in the statics
 
 
 class Scratch(NamedTuple):
@@ -121,7 +128,11 @@ class Scratch(NamedTuple):
     tension: np.ndarray  # (n,), before a step's last stage
     motion: np.ndarray  # (8, 3): platform.start_motion
     parts: np.ndarray  # (B, 13), of a step's start
-    saved_parts: np.ndarray  # (2, B, 13)
+    creep: np.ndarray  # as in State, of a step's start
+    saved_parts: np.ndarray  # (2, B, 13), and so on: as `saved`
+    saved_creep: np.ndarray
+    saved_ends: np.ndarray  # (2, E)
+    saved_failed: np.ndarray  # (2, F)
     load: np.ndarray  # (P, 9): force (N) and inertia xx, yy, zz, xy, xz, yz (kg) of what moves with each point
     matrix: np.ndarray  # (6, 7): equations of motion of a part
 
@@ -192,6 +203,8 @@ def build(scene, segments=None, layout=None):
         segments=np.array(counts, dtype=np.int64),
         fairlead_end=np.array(fairlead_end, dtype=np.int64),
         rigid=_rigid(layout, kinds, env),
+        ropes=build_ropes([(line.type, start, count, line.length / count) for line, start, count in zip(scene.lines, first_node, counts)]),
+        failures=_failures(scene, layout),
     )
     return model, np.array(end_point, dtype=np.int64)
 
@@ -217,6 +230,11 @@ def _rigid(layout, kinds, env):
     )
 
 
+def _failures(scene, layout):
+    holders = {failure.holder: layout.holder(failure.holder) for failure in scene.failures}
+    return build_failures(failure_rows(scene.failures, scene.lines, holders, layout.failure_points.start))
+
+
 def natural_speed(scene):
     """Free fall through the mooring's height, the current, and 5 % of strain let loose, m/s."""
     env = scene.environment
@@ -225,19 +243,12 @@ def natural_speed(scene):
     return float(fall + np.linalg.norm(env.current) + recoil)
 
 
-def internal_damping(line_type, segment_length):
-    """BA in N s; a negative entry is the fraction of critical of a segment: zeta l sqrt(EA m)."""
-    if line_type.damping >= 0.0:
-        return line_type.damping
-    return -line_type.damping * segment_length * np.sqrt(line_type.stiffness * line_type.mass)
-
-
 def _place_line(rows, line, start, count, env):
     kind = line.type
     length = line.length / count
     segments = slice(start + 1, start + count + 1)
     rows["stiffness"][segments] = kind.stiffness
-    rows["damping"][segments] = internal_damping(kind, length) / length
+    rows["damping"][segments] = rope_damping(kind, length) / length
     rows["inverse_length"][segments] = 1.0 / length
     rows["length"][segments] = length
     rows["live"][segments] = 1.0
@@ -316,6 +327,7 @@ def _place_point(rows, place, node, env):
 def new_state(model, end_point):
     """State at rest, everything at the origin; `statics.settle` places it."""
     n, parts = model.mass.size, model.rigid.mass.size
+    creeping = n if model.ropes.kelvin_first.size else 0
     position = np.zeros((3, n))
     position[2] = 2.0 * model.bed_level - 100.0  # dummies stay where they are, far below the surface
     stream = np.zeros((3, n))
@@ -335,6 +347,8 @@ def new_state(model, end_point):
         tangent=np.zeros((3, n)),
         tension=np.zeros(n),
         strain_rate=np.zeros(n),
+        creep=np.zeros(creeping),
+        creep_rate=np.zeros(creeping),
         stream=stream,
         swell=np.zeros((4, 0)),
         wet=np.ones(n),
@@ -342,12 +356,14 @@ def new_state(model, end_point):
         inertia_axial=np.zeros(n),
         bed_relief=np.ones(n),
         end_point=end_point.copy(),
-        settings=np.array([0.0, 0.0, 0.0, 1.0, 0.0, np.inf, 0.0]),
+        failed=np.zeros(model.failures.point.size, dtype=np.int64),
+        settings=np.array([0.0, 0.0, 0.0, 1.0, 0.0, np.inf, 0.0, 0.0]),
     )
 
 
 def new_scratch(model):
     n, parts = model.mass.size, model.rigid.mass.size
+    creeping = n if model.ropes.kelvin_first.size else 0
     return Scratch(
         position=np.zeros((3, n)),
         velocity=np.zeros((3, n)),
@@ -356,7 +372,11 @@ def new_scratch(model):
         tension=np.zeros(n),
         motion=np.zeros((8, 3)),
         parts=np.zeros((parts, 13)),
+        creep=np.zeros(creeping),
         saved_parts=np.zeros((2, parts, 13)),
+        saved_creep=np.zeros((2, creeping)),
+        saved_ends=np.zeros((2, model.end_node.size), dtype=np.int64),
+        saved_failed=np.zeros((2, model.failures.point.size), dtype=np.int64),
         load=np.zeros((model.point_node.size, 9)),
         matrix=np.zeros((6, 7)),
     )

@@ -7,12 +7,12 @@ Quaternions are x, y, z, w; all vectors are in the world frame. Small vectors ar
 
 import numpy as np
 
-from .cache import stage
+from .cache import formula
 
 SMALL_ANGLE = 0.3  # rad: below, series replace sines (error below 1e-16)
 
 
-@stage
+@formula
 def exponential_coefficients(s):
     """(sin a / a, (1 - cos a) / a^2, (a - sin a) / a^3) for s = a^2."""
     if s < SMALL_ANGLE * SMALL_ANGLE:
@@ -27,17 +27,17 @@ def exponential_coefficients(s):
     return first, second, third
 
 
-@stage
+@formula
 def cross(a, b):
     return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
 
-@stage
+@formula
 def dot(a, b):
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-@stage
+@formula
 def rotate(q, a):
     """The vector a turned by the unit quaternion q."""
     v = (q[0], q[1], q[2])
@@ -47,7 +47,7 @@ def rotate(q, a):
     return a[0] + q[3] * t[0] + c[0], a[1] + q[3] * t[1] + c[1], a[2] + q[3] * t[2] + c[2]
 
 
-@stage
+@formula
 def rotation_between(q0, q1):
     """Rotation vector of the shorter turn from q0 to q1, in the world frame: q1 = exp(phi) q0."""
     a = (q0[0], q0[1], q0[2])
@@ -64,7 +64,7 @@ def rotation_between(q0, q1):
     return scale * x, scale * y, scale * z
 
 
-@stage
+@formula
 def inverse_tangent_map(phi, omega):
     """phi' from the angular velocity: omega - phi x omega / 2 + c phi x (phi x omega), c = (1 - (a/2) cot(a/2)) / a^2."""
     square = dot(phi, phi)
@@ -82,7 +82,7 @@ def inverse_tangent_map(phi, omega):
     )
 
 
-@stage
+@formula
 def start_motion(pose0, twist0, pose1, twist1, duration, motion):
     """Fill motion (8, 3) for `platform_at`: rows p0, v0 h, p1, v1 h, phi1, phi0' h, phi1' h, (h, 0, 0), with h the duration (s)."""
     phi = rotation_between(pose0[3:], pose1[3:])
@@ -98,7 +98,7 @@ def start_motion(pose0, twist0, pose1, twist1, duration, motion):
     motion[7, 0] = duration
 
 
-@stage
+@formula
 def platform_at(motion, s):
     """(place, velocity, rotation vector since the start, angular velocity) at s in 0..1 of the interval."""
     r = 1.0 - s
@@ -136,7 +136,7 @@ def platform_at(motion, s):
     return place, velocity, phi, omega
 
 
-@stage
+@formula
 def turned(phi, a):
     """exp(phi) a."""
     first, second, _ = exponential_coefficients(dot(phi, phi))

@@ -110,8 +110,8 @@ def _show_bodies(model, state, row, readings):
             _add_to_output(model, state, row, readings, p, model.point_node[p], (r[0], r[1], r[2]))
 
 
-@stage
-def show(model, state, row, readings):
+@kernel
+def observe(model, state, row, readings):
     """Fill one row of `readings` from the last evaluation."""
     coupled = readings.coupled
     for o in range(model.output_point.size):
@@ -138,9 +138,3 @@ def show(model, state, row, readings):
         mx, my, mz = mx + moment[0] + coupled[row, o, 3], my + moment[1] + coupled[row, o, 4], mz + moment[2] + coupled[row, o, 5]
     w = readings.wrench
     w[row, 0], w[row, 1], w[row, 2], w[row, 3], w[row, 4], w[row, 5] = wx, wy, wz, mx, my, mz
-
-
-@kernel
-def observe(model, state, row, readings):
-    """`show`, to be called from Python."""
-    show(model, state, row, readings)

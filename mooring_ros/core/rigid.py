@@ -6,7 +6,7 @@ motion about the part's origin give its acceleration, (m + A) (a + alpha x r + o
 
 import numpy as np
 
-from .cache import stage
+from .cache import kernel, stage
 from .layout import POINT_COUPLED, POINT_RIDING
 from .model import LOOSE
 from .platform import cross, dot, exponential_coefficients, rotate
@@ -15,7 +15,7 @@ from .points import point_acceleration
 SMALLEST_PIVOT = 1e-13  # of the largest: a rod without thickness has no inertia about its axis
 
 
-@stage
+@kernel
 def carry_parts(model, state):
     """Put the internal points that ride on parts where these carry them; a pinned part hangs on its pin."""
     rigid, parts = model.rigid, state.parts
@@ -169,7 +169,7 @@ def _solve(matrix, first):
         matrix[i, 6] = total / max(matrix[i, i], SMALLEST_PIVOT * largest + 1e-300)
 
 
-@stage
+@kernel
 def move_parts(model, state, scratch):
     """Accelerations of the parts from what `points.gather` has put into scratch.load, given to all that rides on them."""
     rigid, parts, matrix, load = model.rigid, state.parts, scratch.matrix, scratch.load
@@ -267,10 +267,9 @@ def _normalise(parts, b):
         parts[b, 3 + k] /= norm
 
 
-@stage
-def euler_parts(model, state, h, staggered):
-    """An Euler step of h (s) of all parts; `staggered`: with the new velocities, as leapfrog does."""
-    parts, a = state.parts, state.parts_acceleration
+@kernel
+def euler_parts(parts, a, h, staggered):
+    """An Euler step of h (s) of all parts (B, 13) with accelerations a (B, 6); `staggered`: with the new velocities, as leapfrog does."""
     for b in range(parts.shape[0]):
         if staggered:
             for k in range(6):
@@ -283,10 +282,9 @@ def euler_parts(model, state, h, staggered):
                 parts[b, 7 + k] += h * a[b, k]
 
 
-@stage
-def mix_parts(model, state, start, old):
-    """The mean of the parts now and at `start` (B, 13), which has the weight `old`."""
-    parts = state.parts
+@kernel
+def mix_parts(parts, start, old):
+    """The mean of the parts (B, 13) now and at `start`, which has the weight `old`."""
     for b in range(parts.shape[0]):
         same = 0.0
         for k in range(3, 7):
@@ -297,7 +295,7 @@ def mix_parts(model, state, start, old):
         _normalise(parts, b)
 
 
-@stage
+@kernel
 def copy_parts(source, target):
     for b in range(source.shape[0]):
         for k in range(13):

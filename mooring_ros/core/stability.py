@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .ropes import rope_limits
 from .schemes import LEAPFROG, SAFETY, SSP, stable_step
 
 REFERENCE_SPEED = 2.0  # m/s, at which the drag's own limit is stated
@@ -39,9 +40,10 @@ def step_limit(scene, model, dt=None):
     worst = ""
     for k, line in enumerate(scene.lines):
         first, count = model.first_node[k], model.segments[k]
-        length, stiffness = float(model.length[first + 1]), float(model.stiffness[first + 1])
+        length = float(model.length[first + 1])
+        stiffness, damping = rope_limits(line.type, length)
         omega = 2.0 / length * math.sqrt(stiffness / line.type.mass)
-        zeta = 0.5 * omega * float(model.damping[first + 1]) * length / stiffness
+        zeta = 0.5 * omega * damping / stiffness
         for scheme in axial:
             axial[scheme] = min(axial[scheme], stable_step(scheme, omega, zeta))
         if 2.0 / omega < limits["axial"]:

@@ -18,6 +18,7 @@ from .freedom import Freedom
 from .layout import POINT_COUPLED, POINT_FIXED, POINT_RIDING
 from .model import LOOSE
 from .platform import rotate
+from .ropes import build_ropes, rope_statics, settle_creep
 from .tangent import balance, fill_tangent, predict_tension, stretch_linearly
 
 TOLERANCE, ACCEPTABLE = 1e-9, 1e-6  # of the heaviest line's weight: what is asked for, and what will do when nothing finds more
@@ -47,7 +48,9 @@ class StaticSolver:
 
     def __init__(self, scene, model):
         n = model.mass.size
-        self.model = model
+        self.model = model._replace(stiffness=model.stiffness.copy())  # of ropes: where their tensions stand
+        self._slack_strain = np.zeros(n)
+        self._no_ropes = build_ropes([])
         self.blocks = np.zeros((n, 3, 3, 3))  # of each node with its left neighbour, itself and its right one
         self._indptr = np.concatenate([[0, 2], 2 + 3 * np.arange(1, n - 1), [3 * n - 2]])
         self._indices = (np.arange(n)[:, None] + np.array([-1, 0, 1])).ravel()[1:-1]
@@ -119,6 +122,7 @@ class StaticSolver:
         if self._held is None or (self._held != state.end_point).any():
             self._freedom, self._held = Freedom(self.model, state), state.end_point.copy()
         state.settings[:6] = (0.0, 0.0, 1.0, 1.0, 0.0, np.inf)
+        state.settings[7] = 1.0
         state.bed_relief[:] = 1.0
         goal = max(self.tolerance, self._rounding(state))
         best = _Best()
@@ -127,6 +131,8 @@ class StaticSolver:
             iterations += self._by_softening(state, scratch, goal, best)
         best.take(state)
         residual = self._evaluate(state, scratch)
+        settle_creep(self.model.ropes, state.tension, state.creep)
+        state.settings[7] = 0.0
         return StaticResult(iterations, residual, goal, bool(residual <= goal))
 
     def _with_own_tensions(self, state, scratch, goal, best):
@@ -144,11 +150,11 @@ class StaticSolver:
             best.keep(residual, state)
             if residual <= goal:
                 return iteration - 1
-            stretch_linearly(self.model, state, tension)
+            stretch_linearly(self.model, state, self._slack_strain, tension)
             step = self._step(state, damping)
             if step is None:
                 return iteration
-            predict_tension(self.model, state, self.move, predicted)
+            predict_tension(self.model, state, self._slack_strain, self.move, predicted)
             share, merit = self._search_with_tensions(state, scratch, step, tension, predicted, merit)
             damping = max(0.1 * damping, LEAST_DAMPING) if share == 1.0 else min(10.0 * damping, 1.0) if share < 0.2 else damping
             rejected = rejected + 1 if share < SMALLEST_SHARE else 0
@@ -171,7 +177,8 @@ class StaticSolver:
     def _merit(self, state, scratch, tension):
         """Forces out of balance with tensions of their own, over the weight, and the strains that these tensions miss, in one norm."""
         _evaluate_at_rest(self.model, state, scratch)
-        missed = balance(self.model, state, tension, self.move)
+        rope_statics(self.model.ropes, tension, self.model.stiffness, self._slack_strain)
+        missed = balance(self.model, state, self._slack_strain, tension, self.move)
         force = self._sizes(state, self.move) / self.weight
         return float(np.hypot(np.sqrt((force**2).sum()), STRAIN_SCALE * missed))
 
@@ -183,7 +190,8 @@ class StaticSolver:
         try:
             for strain in SOFT_STRAINS:
                 soft = np.minimum(stiff.stiffness, self.weight / strain)
-                self.model = stiff._replace(stiffness=np.where(stiff.live > 0.0, soft, 0.0))
+                self.model = stiff._replace(stiffness=np.where(stiff.live > 0.0, soft, 0.0), ropes=self._no_ropes)
+                self._slack_strain[:] = 0.0
                 stage = _Best()
                 iterations += self._downhill(state, scratch, SOFT_TOLERANCE * self.weight, stage)
                 stage.take(state)
@@ -304,7 +312,9 @@ class StaticSolver:
         free = self._freedom
         if not self.model.coupled_points.size:
             return np.zeros((6, 6))
+        state.settings[7] = 1.0
         _evaluate_at_rest(self.model, state, scratch)
+        rope_statics(self.model.ropes, state.tension, self.model.stiffness, self._slack_strain)
         total = self._stiffness(state, free.follow(state, platform=True), STIFFNESS_DAMPING, platform=True)
         kept, held = np.flatnonzero(free.kept), np.arange(free.count, free.count + 6)
         own = total[held][:, held].toarray()

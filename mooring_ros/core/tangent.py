@@ -126,15 +126,18 @@ def _buoyancy(model, state, diagonal, above, below):
 
 
 @kernel
-def stretch_linearly(model, state, tension):
-    """Let segments with `tension` (n,) > 0 push as well as pull, and take these tensions into the state for `fill_tangent`."""
+def stretch_linearly(model, state, slack_strain, tension):
+    """Let segments with `tension` (n,) > 0 push as well as pull, and take these tensions into the state for `fill_tangent`.
+
+    Here and below a segment's law is T = stiffness (strain - slack_strain), the piece of its curve where `tension` stands.
+    """
     for i in range(model.size):
         if tension[i + 1] > 0.0 and state.tension[i + 1] <= 0.0:
             q = state.tangent[:, i + 1]
             length = 0.0
             for k in range(3):
                 length += q[k] * (state.position[k, i + 1] - state.position[k, i])
-            push = model.stiffness[i + 1] * (length * model.inverse_length[i + 1] - 1.0)
+            push = model.stiffness[i + 1] * (length * model.inverse_length[i + 1] - 1.0 - slack_strain[i + 1])
             for k in range(3):
                 state.force[k, i] += push * q[k]
                 state.force[k, i + 1] -= push * q[k]
@@ -142,7 +145,7 @@ def stretch_linearly(model, state, tension):
 
 
 @kernel
-def predict_tension(model, state, move, tension):
+def predict_tension(model, state, slack_strain, move, tension):
     """Tensions (n,) that the segments will have after `move` (3, n), to first order; zero for those that go slack."""
     for i in range(model.size):
         q = state.tangent[:, i + 1]
@@ -150,12 +153,12 @@ def predict_tension(model, state, move, tension):
         for k in range(3):
             length += q[k] * (state.position[k, i + 1] - state.position[k, i])
             growth += q[k] * (move[k, i + 1] - move[k, i])
-        strain = (length + growth) * model.inverse_length[i + 1] - 1.0
+        strain = (length + growth) * model.inverse_length[i + 1] - 1.0 - slack_strain[i + 1]
         tension[i + 1] = max(model.live[i + 1] * model.stiffness[i + 1] * strain, 0.0)
 
 
 @kernel
-def balance(model, state, tension, force):
+def balance(model, state, slack_strain, tension, force):
     """Forces (3, n) of the nodes with tensions (n,) of their own in place of the state's; returns the norm of the strains that these miss.
 
     `evaluate` must have run at the positions.
@@ -166,11 +169,11 @@ def balance(model, state, tension, force):
             left = (tension[i] - state.tension[i]) * state.tangent[k, i]
             right = (tension[i + 1] - state.tension[i + 1]) * state.tangent[k, i + 1]
             force[k, i] = state.force[k, i] + right - left
-        if model.live[i + 1] > 0.0:
+        if model.stiffness[i + 1] > 0.0:
             length = 0.0
             for k in range(3):
                 length += state.tangent[k, i + 1] * (state.position[k, i + 1] - state.position[k, i])
-            strain = length * model.inverse_length[i + 1] - 1.0 - tension[i + 1] / model.stiffness[i + 1]
+            strain = length * model.inverse_length[i + 1] - 1.0 - slack_strain[i + 1] - tension[i + 1] / model.stiffness[i + 1]
             if tension[i + 1] <= 0.0:
                 strain = max(strain, 0.0)
             missed += strain * strain
