@@ -17,6 +17,7 @@ from .tension import TINY
 
 LIGHTEST = 1e-30  # kg: keeps a node without inertia from dividing by zero
 UPRIGHT = 1e-24  # square of the tangent's part along the bed, below which a node has no direction there
+NEAR = 1e-3  # m: over which the turning of a grid's normal is taken
 NO_CONTACT, STICKING, SLIDING = -1.0, 0.0, 1.0
 
 
@@ -81,6 +82,12 @@ def bed_level(ground, x, y):
     return bed_at(ground, x, y)[0]
 
 
+@stage
+def _normal(slope_x, slope_y):
+    up = 1.0 / np.sqrt(1.0 + slope_x * slope_x + slope_y * slope_y)
+    return -slope_x * up, -slope_y * up, up
+
+
 @kernel
 def bed_under(ground, size, position, bed):
     """bed (4, n): z of the bed under each node (m) and its unit normal."""
@@ -88,20 +95,17 @@ def bed_under(ground, size, position, bed):
     level, nx, ny, nz = bed[0], bed[1], bed[2], bed[3]
     if ground.grid.x.size == 0:
         slope_x, slope_y = ground.slope
-        up = 1.0 / np.sqrt(1.0 + slope_x * slope_x + slope_y * slope_y)
+        normal_x, normal_y, normal_z = _normal(slope_x, slope_y)
         for i in range(size):
             level[i] = ground.level + slope_x * x[i] + slope_y * y[i]
-            nx[i] = -slope_x * up
-            ny[i] = -slope_y * up
-            nz[i] = up
+            nx[i] = normal_x
+            ny[i] = normal_y
+            nz[i] = normal_z
     else:
         for i in range(size):
             z, slope_x, slope_y = grid_under(ground.grid, x[i], y[i])
-            up = 1.0 / np.sqrt(1.0 + slope_x * slope_x + slope_y * slope_y)
             level[i] = z
-            nx[i] = -slope_x * up
-            ny[i] = -slope_y * up
-            nz[i] = up
+            nx[i], ny[i], nz[i] = _normal(slope_x, slope_y)
 
 
 @stage
@@ -349,9 +353,10 @@ def _ellipse(fx, fy, fz, ex, ey, ez, limit):
 
 @kernel
 def ground_blocks(ground, size, position, tangent, bed_stiffness, bed, grip, diagonal):
-    """Add -dF/dx of contact and of `stick` friction to diagonal (n, 3, 3), at rest and for step 0, the bed's normal and the tangent held.
+    """Add -dF/dx of contact and of `stick` friction to diagonal (n, 3, 3), at rest and for step 0, the nodes' tangents held.
 
-    Sliding friction is perfectly plastic along the slip and turns with it across; its limit grows with the depth.
+    Sliding friction is perfectly plastic along the slip and turns with it across; its limit grows with the depth. The turning of the bed's
+    normal counts for the contact, not for friction.
     """
     for i in range(size):
         n = (bed[1, i], bed[2, i], bed[3, i])
@@ -362,6 +367,16 @@ def ground_blocks(ground, size, position, tangent, bed_stiffness, bed, grip, dia
         for a in range(3):
             for b in range(3):
                 diagonal[i, a, b] += stiffness * n[a] * n[b]
+        if ground.grid.x.size > 0:
+            x, y = position[0, i], position[1, i]
+            for b in range(2):
+                dx, dy = (NEAR, 0.0) if b == 0 else (0.0, NEAR)
+                _, slope_x, slope_y = grid_under(ground.grid, x - dx, y - dy)
+                before = _normal(slope_x, slope_y)
+                _, slope_x, slope_y = grid_under(ground.grid, x + dx, y + dy)
+                after = _normal(slope_x, slope_y)
+                for a in range(3):
+                    diagonal[i, a, b] -= stiffness * depth * (after[a] - before[a]) / (2.0 * NEAR)
         if ground.law != STICK or grip[3, i] < 0.0:
             continue
         e = _in_plane(position[0, i] - grip[0, i], position[1, i] - grip[1, i], position[2, i] - grip[2, i], n[0], n[1], n[2])

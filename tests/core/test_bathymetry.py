@@ -43,7 +43,12 @@ def test_an_even_grid_of_many_lines_is_found_cell_by_cell():
 def test_normals_are_those_of_the_surface():
     rng = np.random.default_rng(6)
     x, y, h = rng.uniform(X[0] + 1, X[-1] - 1, 500), rng.uniform(Y[0] + 1, Y[-1] - 1, 500), 1e-4
-    far = (np.abs(x[:, None] - X).min(axis=1) > h) & (np.abs(y[:, None] - Y).min(axis=1) > h)
+    band = 0.02  # of the narrower cell: where slopes go over into each other
+    far = np.ones(500, dtype=bool)
+    for place, lines in ((x, X), (y, Y)):
+        width = np.pad(np.diff(lines), 1, mode="edge")
+        far &= (np.abs(place[:, None] - lines) > band * np.minimum(width[1:], width[:-1]) + h).all(axis=1)
+    assert far.mean() > 0.8
     bed = grid()
     slope_x = (bed_level(bed, x + h, y) - bed_level(bed, x - h, y)) / (2.0 * h)
     slope_y = (bed_level(bed, x, y + h) - bed_level(bed, x, y - h)) / (2.0 * h)
@@ -57,7 +62,19 @@ def test_beyond_the_grid_the_depth_is_that_of_the_nearest_place_on_its_edge():
     nearest = np.clip(x, X[0], X[-1]), np.clip(y, Y[0], Y[-1])
     bed = bed_at(grid(), x, y)
     assert np.array_equal(bed[0], bed_level(grid(), *nearest))
-    assert (bed[1][(x < X[0]) | (x > X[-1])] == 0.0).all() and (bed[2][(y < Y[0]) | (y > Y[-1])] == 0.0).all()
+    assert (bed[1][(x < X[0] - 1.0) | (x > X[-1] + 10.0)] == 0.0).all() and (bed[2][(y < Y[0] - 10.0) | (y > Y[-1] + 20.0)] == 0.0).all()
+
+
+def test_normals_turn_without_a_jump_from_cell_to_cell_and_at_the_edge():
+    ground, h = grid(), 1e-6
+    for lines, axis in ((X, 0), (Y, 1)):
+        for line in lines:
+            for other in (-85.0, 55.0, 400.0):
+                path = np.full((2, 2001), other)
+                path[axis] = line + np.linspace(-20.0, 20.0, 2001)
+                step = np.abs(np.diff(bed_at(ground, *path)[1:], axis=1)).max()
+                path[axis] = np.repeat(line, 2001) + np.linspace(-h, h, 2001)
+                assert np.abs(np.diff(bed_at(ground, *path)[1:], axis=1)).max() < 1e-6 * max(step, 1.0)
 
 
 @pytest.mark.parametrize("wild", [np.nan, np.inf, -np.inf, 1e300, -1e300, 0.0])
