@@ -17,6 +17,7 @@ from .tension import TINY
 
 LIGHTEST = 1e-30  # kg: keeps a node without inertia from dividing by zero
 UPRIGHT = 1e-24  # square of the tangent's part along the bed, below which a node has no direction there
+TOGETHER = 8  # nodes: a whole number of vectors
 NEAR = 1e-3  # m: over which the turning of a grid's normal is taken
 NO_CONTACT, STICKING, SLIDING = -1.0, 0.0, 1.0
 
@@ -137,17 +138,63 @@ def contact(
     and hold (2, n) is what their owner adds to the inertia (kg) along the normal and in the tangent plane.
     """
     if ground.law == NO_FRICTION:
-        _smooth(
-            size, step, position, velocity, tangent, bed_stiffness, bed_damping, inertia_normal, inertia_axial, slaved, bed, force, hold
-        )
-    elif ground.law == SATURATED:
-        _saturated(
-            ground, size, step, position, velocity, tangent, bed_stiffness, bed_damping, inertia_normal, inertia_axial, slaved, bed, force, hold
-        )
-    else:
-        _sticking(
-            ground, size, step, position, velocity, tangent, bed_stiffness, bed_damping, inertia_normal, inertia_axial, slaved, bed, grip, force, hold
-        )
+        _smooth(size, step, position, velocity, tangent, bed_stiffness, bed_damping, inertia_normal, inertia_axial, slaved, bed, force, hold)
+        return
+    start = 0
+    while start < size:  # the laws of friction cost more than asking who needs them
+        stop = start
+        while stop < size and _touches(position, bed, stop, min(stop + TOGETHER, size)):
+            stop = min(stop + TOGETHER, size)
+        if stop == start:
+            stop = min(start + TOGETHER, size)
+            for i in range(start, stop):
+                hold[0, i] = hold[1, i] = 0.0
+        elif ground.law == SATURATED:
+            _saturated(
+                ground,
+                start,
+                stop,
+                step,
+                position,
+                velocity,
+                tangent,
+                bed_stiffness,
+                bed_damping,
+                inertia_normal,
+                inertia_axial,
+                slaved,
+                bed,
+                force,
+                hold,
+            )
+        else:
+            _sticking(
+                ground,
+                start,
+                stop,
+                step,
+                position,
+                velocity,
+                tangent,
+                bed_stiffness,
+                bed_damping,
+                inertia_normal,
+                inertia_axial,
+                slaved,
+                bed,
+                grip,
+                force,
+                hold,
+            )
+        start = stop
+
+
+@stage
+def _touches(position, bed, start, stop):
+    touches = False
+    for i in range(start, stop):
+        touches |= bed[0, i] > position[2, i]
+    return touches
 
 
 @stage
@@ -192,21 +239,23 @@ def _axial_direction(tx, ty, tz, nx, ny, nz):
 
 @stage
 def _saturated(
-    ground, size, step, position, velocity, tangent, bed_stiffness, bed_damping, inertia_normal, inertia_axial, slaved, bed, force, hold
+    ground, first, stop, step, position, velocity, tangent, bed_stiffness, bed_damping, inertia_normal, inertia_axial, slaved, bed, force, hold
 ):
-    z, u, v, w = position[2], velocity[0], velocity[1], velocity[2]
-    qx, qy, qz = tangent[0], tangent[1], tangent[2]
-    fx, fy, fz = force[0], force[1], force[2]
-    level, normal_x, normal_y, normal_z = bed[0], bed[1], bed[2], bed[3]
-    hold_normal, hold_along = hold[0], hold[1]
+    z, u, v, w = position[2, first:stop], velocity[0, first:stop], velocity[1, first:stop], velocity[2, first:stop]
+    qx, qy, qz = tangent[0, first : stop + 1], tangent[1, first : stop + 1], tangent[2, first : stop + 1]
+    fx, fy, fz = force[0, first:stop], force[1, first:stop], force[2, first:stop]
+    level, normal_x, normal_y, normal_z = bed[0, first:stop], bed[1, first:stop], bed[2, first:stop], bed[3, first:stop]
+    hold_normal, hold_along = hold[0, first:stop], hold[1, first:stop]
     static_axial, static_across, kinetic_axial, kinetic_across = (
         ground.static_axial,
         ground.static_across,
         ground.kinetic_axial,
         ground.kinetic_across,
     )
+    bed_stiffness, bed_damping, slaved = bed_stiffness[first:stop], bed_damping[first:stop], slaved[first:stop]
+    inertia_normal, inertia_axial = inertia_normal[first:stop], inertia_axial[first:stop]
     directional, ramp = ground.directional, ground.ramp
-    for i in range(size):
+    for i in range(stop - first):
         nx, ny, nz = normal_x[i], normal_y[i], normal_z[i]
         tx, ty, tz = qx[i] + qx[i + 1], qy[i] + qy[i + 1], qz[i] + qz[i + 1]
         across, surplus = _mobility(tx, ty, tz, inertia_normal[i], inertia_axial[i], slaved[i])
@@ -244,23 +293,25 @@ def _saturated(
 
 @stage
 def _sticking(
-    ground, size, step, position, velocity, tangent, bed_stiffness, bed_damping, inertia_normal, inertia_axial, slaved, bed, grip, force, hold
+    ground, first, stop, step, position, velocity, tangent, bed_stiffness, bed_damping, inertia_normal, inertia_axial, slaved, bed, grip, force, hold
 ):
-    x, y, z = position[0], position[1], position[2]
-    u, v, w = velocity[0], velocity[1], velocity[2]
-    qx, qy, qz = tangent[0], tangent[1], tangent[2]
-    fx, fy, fz = force[0], force[1], force[2]
-    level, normal_x, normal_y, normal_z = bed[0], bed[1], bed[2], bed[3]
-    grip_x, grip_y, grip_z, state = grip[0], grip[1], grip[2], grip[3]
-    hold_normal, hold_along = hold[0], hold[1]
+    x, y, z = position[0, first:stop], position[1, first:stop], position[2, first:stop]
+    u, v, w = velocity[0, first:stop], velocity[1, first:stop], velocity[2, first:stop]
+    qx, qy, qz = tangent[0, first : stop + 1], tangent[1, first : stop + 1], tangent[2, first : stop + 1]
+    fx, fy, fz = force[0, first:stop], force[1, first:stop], force[2, first:stop]
+    level, normal_x, normal_y, normal_z = bed[0, first:stop], bed[1, first:stop], bed[2, first:stop], bed[3, first:stop]
+    grip_x, grip_y, grip_z, state = grip[0, first:stop], grip[1, first:stop], grip[2, first:stop], grip[3, first:stop]
+    hold_normal, hold_along = hold[0, first:stop], hold[1, first:stop]
     static_axial, static_across, kinetic_axial, kinetic_across = (
         ground.static_axial,
         ground.static_across,
         ground.kinetic_axial,
         ground.kinetic_across,
     )
+    bed_stiffness, bed_damping, slaved = bed_stiffness[first:stop], bed_damping[first:stop], slaved[first:stop]
+    inertia_normal, inertia_axial = inertia_normal[first:stop], inertia_axial[first:stop]
     stiffer, denser = ground.stiffness_ratio, ground.damping_ratio
-    for i in range(size):
+    for i in range(stop - first):
         nx, ny, nz = normal_x[i], normal_y[i], normal_z[i]
         tx, ty, tz = qx[i] + qx[i + 1], qy[i] + qy[i + 1], qz[i] + qz[i + 1]
         across, surplus = _mobility(tx, ty, tz, inertia_normal[i], inertia_axial[i], slaved[i])
@@ -302,7 +353,7 @@ def _sticking(
         fy[i] = gy - part * ey - side * dy
         fz[i] = gz - part * ez - side * dz
         hold_along[i] = share * give if push > 0.0 else 0.0
-    for i in range(size):  # apart: one array more, and the compiler gives up proving that none overlap
+    for i in range(stop - first):  # apart: one array more, and the compiler gives up proving that none overlap
         hold_normal[i] = step * (bed_damping[i] + step * bed_stiffness[i]) if hold_along[i] > 0.0 else 0.0
 
 
