@@ -21,6 +21,7 @@ from mooring_ros.node.output import Output
 from mooring_ros.node.outputs import Outputs
 from mooring_ros.node.session import RUNNING, Session
 from mooring_ros.node.timing import Durations, FixedRate
+from mooring_ros.recording.attached import AttachedScene
 from mooring_ros.recording.errors import RecordingError
 from mooring_ros.recording.writer import RecordingWriter
 from mooring_ros.scene import load_scene
@@ -159,7 +160,7 @@ class MooringNode(LifecycleNode):
                 self.get_logger().warning("recording.path is set but recording.enabled is false: nothing is recorded")
             return None
         path = values["recording.path"] or time.strftime("mooring_%Y%m%d-%H%M%S.mcap")
-        recorder = RecordingWriter(path, values, os.path.basename(str(scene.path)), scene.text)
+        recorder = RecordingWriter(path, values, AttachedScene(os.path.basename(scene.path), scene.text, scene.files))
         self.get_logger().info(f"records to {recorder.path}")
         return recorder
 

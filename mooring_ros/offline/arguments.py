@@ -2,8 +2,11 @@
 
 import argparse
 import math
+import os
 
 import numpy as np
+
+from mooring_ros.scene import parse_scene
 
 from .angles import quaternion_from_degrees
 from .console import reading
@@ -71,12 +74,26 @@ def pose(text):
 
 
 def load_mooring(scene, fidelity=None, solver=None, dt=None, segments=None):
-    """A Mooring for a scene (path or Scene) and options where None means the default. Raises UsageError for bad input."""
+    """A Mooring for a scene (path of it, or of a recording that holds it) and options where None means the default. Raises UsageError for bad input."""
     from mooring_ros.mooring import Mooring
 
     chosen = {"fidelity": fidelity, "solver": solver, "dt": dt, "segments": segments}
     with reading(scene):
-        return Mooring(scene, **{name: value for name, value in chosen.items() if value is not None})
+        return Mooring(_recorded_scene(scene) or scene, **{name: value for name, value in chosen.items() if value is not None})
+
+
+def _recorded_scene(path):
+    """The Scene in a recording, with the files that it was read from; None when the path is no recording's. Raises ValueError, OSError."""
+    from mooring_ros.recording.reader import Recording
+    from mooring_ros.recording.records import is_mcap
+
+    bag, file = os.path.isfile(os.path.join(path, "metadata.yaml")), os.path.isfile(path)  # not a pipe: reading it could last for ever
+    if not bag and not (file and is_mcap(path)):
+        return None
+    attached = Recording(path).scene
+    if attached is None:
+        raise ValueError(f"{path}: a recording without a scene, expected a MoorDyn v2 input file, or a recording of the node or of a replay")
+    return parse_scene(attached.text, os.path.join(path, attached.name), attached.files)
 
 
 def _one_of(text, built):

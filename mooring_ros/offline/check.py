@@ -9,7 +9,7 @@ from .measure import measured_cost
 
 
 def add_arguments(parser):
-    parser.add_argument("scene", metavar="SCENE", help="MoorDyn v2 input file")
+    parser.add_argument("scene", metavar="SCENE", help="MoorDyn v2 input file, or a recording that holds one")
     parser.add_argument("--json", action="store_true", help="one JSON object on standard output, nothing else")
 
 

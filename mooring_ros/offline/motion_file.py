@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from mooring_ros.recording.attached import AttachedScene
 from mooring_ros.recording.records import is_mcap
 
 
@@ -25,7 +26,7 @@ class Motion:
     schedule: list | None = None    # of recording.schedule.Action, for a recording of the node
     schedule_stamps: list | None = None     # ns, of each action
     parameters: dict | None = None  # of the node, for a recording of it
-    scene: tuple | None = None      # (file name, bytes) of the scene in the recording
+    scene: AttachedScene | None = None  # in the recording
     remarks: tuple = field(default=())      # str, what a user should know about how the file was read
 
     @property

@@ -27,7 +27,7 @@ AXES_AND_SCALE = ("input", "convention", "twist_frame", "wrench_frame", "scale",
 
 
 def add_arguments(parser):
-    parser.add_argument("scene", metavar="SCENE", help="MoorDyn v2 input file")
+    parser.add_argument("scene", metavar="SCENE", help="MoorDyn v2 input file, or a recording that holds one")
     parser.add_argument(
         "motion",
         metavar="MOTION",
@@ -110,11 +110,12 @@ def _compare_scenes(path, scene, motion):
     """Whether the scene is the one in the recording; None when there is none. Says so when not."""
     if motion.scene is None:
         return None
-    name, recorded = motion.scene
-    same = bytes(recorded) == scene.text.encode("utf-8")
-    if not same:
-        complain(f"{path}: differs from the scene in the recording {motion.path} ({name}); this one is used")
-    return same
+    recorded, files = motion.scene, dict(scene.files)
+    differing = [] if recorded.text == scene.text else [recorded.name]
+    differing += [name for name, text in recorded.files if files.get(name) != text]
+    if differing:
+        complain(f"{path}: differs from the scene in the recording {motion.path} ({', '.join(differing)}); this one is used")
+    return not differing
 
 
 def _listed(settings):

@@ -15,6 +15,7 @@ from mooring_ros.motion import rotation
 from mooring_ros.node import messages
 from mooring_ros.node.template import Template, placeholder, placeholder_stamp
 from mooring_ros.recording import schedule
+from mooring_ros.recording.attached import AttachedScene
 from mooring_ros.recording.writer import RecordingWriter
 
 from .console import ComputationFailed, reading
@@ -83,7 +84,7 @@ class McapOutput:
         self._part = self._path.with_suffix(".part.mcap")
         with reading(path):
             self._part.unlink(missing_ok=True)
-            self._writer = RecordingWriter(self._part, parameters, os.path.basename(scene.path), scene.text.encode("utf-8"))
+            self._writer = RecordingWriter(self._part, parameters, AttachedScene(os.path.basename(scene.path), scene.text, scene.files))
         self._coupled_topics = [messages.fairlead_topic(NODE, name) for name in coupled_names]
         self._motion, self._step = _MotionTemplate(WORLD_FRAME, PLATFORM_FRAME), _step_template()
         self._sent = 0

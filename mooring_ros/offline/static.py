@@ -9,7 +9,7 @@ _AXES = ("x", "y", "z", "rx", "ry", "rz")
 
 
 def add_arguments(parser):
-    parser.add_argument("scene", metavar="SCENE", help="MoorDyn v2 input file")
+    parser.add_argument("scene", metavar="SCENE", help="MoorDyn v2 input file, or a recording that holds one")
     parser.add_argument(
         "--pose",
         type=pose,

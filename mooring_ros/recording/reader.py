@@ -5,10 +5,11 @@ from typing import NamedTuple
 
 from mcap.records import Attachment, Channel, Header, Message, Metadata, Schema
 
+from .attached import attached_scene
 from .bag_files import bag_files
 from .errors import RecordingError
 from .records import Cut, Damage, read_records, read_summary
-from .writer import METADATA_NAME, SCENE_MEDIA_TYPE
+from .writer import METADATA_NAME
 
 PROFILE = 'ros2'
 SCHEMA_ENCODINGS = ('ros2msg', 'ros2idl')       # the messages are CDR with both
@@ -74,12 +75,8 @@ class Recording:
 
     @property
     def scene(self):
-        """(file name, bytes) of the scene when this is a recording of ours that has one, else None."""
-        if METADATA_NAME in self.metadata:
-            for attachment in self.attachments.values():
-                if attachment.media_type == SCENE_MEDIA_TYPE:
-                    return attachment.name, attachment.data
-        return None
+        """The AttachedScene when this is a recording of ours that has one, else None."""
+        return attached_scene(self.path, self.attachments.values()) if METADATA_NAME in self.metadata else None
 
     def topics(self):
         """dict of topic -> (type name, count of messages). Of a file that was cut off, everything is read for it."""

@@ -10,13 +10,13 @@ from mcap.well_known import MessageEncoding, Profile, SchemaEncoding
 from mcap.writer import CompressionType, Writer
 
 from . import bag_metadata, naming
+from .attached import attachments
 from .errors import RecordingError
 from .qos import Qos, profiles_text
 from .schema import schema_text
 from .sink import Sink
 
 METADATA_NAME = 'mooring_ros'       # the MCAP Metadata record with the parameters, each value as JSON
-SCENE_MEDIA_TYPE = 'text/plain'
 COMPRESSIONS = {'zstd': CompressionType.ZSTD, 'lz4': CompressionType.LZ4, 'none': CompressionType.NONE}
 MESSAGE_OVERHEAD = 200              # bytes that a queued message takes beside its data
 POLL = 0.02                         # s, how often the thread looks at its queue
@@ -38,7 +38,7 @@ class RecordingWriter:
     path: `NAME.mcap`, or a folder name for a bag folder (`NAME/NAME_0.mcap` and `metadata.yaml`). An existing recording
         is never touched: `NAME_2`, `NAME_3`, ... is used instead; `self.path` says which.
     parameters: dict of name -> value (numbers, strings, booleans, lists), kept as an MCAP Metadata record.
-    scene_name, scene_text: file name and content of the scene (bytes, or str kept as UTF-8), an attachment; scene_text None for no scene.
+    scene: an AttachedScene, or None.
     chunk_size: bytes of a full chunk. flush_period: s, after which a chunk goes to the operating system in any case.
     queue_limit_bytes: what may wait for the disk; more than that is lost, and counted.
 
@@ -49,11 +49,10 @@ class RecordingWriter:
     Raises RecordingError when the recording cannot be created.
     """
 
-    def __init__(self, path, parameters, scene_name='', scene_text=None, *, chunk_size=256 * 1024, compression='zstd',
+    def __init__(self, path, parameters, scene=None, *, chunk_size=256 * 1024, compression='zstd',
                  queue_limit_bytes=64 * 1024 * 1024, flush_period=0.2):
         if compression not in COMPRESSIONS:
             raise RecordingError(f'compression {compression!r}: expected one of {", ".join(COMPRESSIONS)}')
-        scene = scene_text.encode() if isinstance(scene_text, str) else scene_text
         metadata = {str(key): json.dumps(value, default=_plain) for key, value in parameters.items()}
         descriptor, self.file, self._folder = naming.create(path)
         self.path = self._folder or self.file
@@ -79,18 +78,17 @@ class RecordingWriter:
         self._sink = Sink(descriptor)
         self._mcap = Writer(self._sink, chunk_size=chunk_size, compression=COMPRESSIONS[compression])
         self._flush_period = flush_period
-        self._start(metadata, scene_name, scene)
+        self._start(metadata, attachments(scene) if scene else ())
         self._thread = threading.Thread(target=self._work, name='recording')
         self._thread.start()
 
-    def _start(self, metadata, scene_name, scene):
+    def _start(self, metadata, attached):
         now = time.time_ns()
         try:
             self._mcap.start(profile=Profile.ROS2, library=library_name())
             self._mcap.add_metadata(METADATA_NAME, metadata)
-            if scene is not None:
-                self._mcap.add_attachment(create_time=now, log_time=now, name=os.path.basename(scene_name) or 'scene.txt',
-                                          media_type=SCENE_MEDIA_TYPE, data=scene)
+            for name, media_type, data in attached:
+                self._mcap.add_attachment(create_time=now, log_time=now, name=name, media_type=media_type, data=data)
             self._sink.commit()
             if self._folder:
                 bag_metadata.write_metadata(self._folder, [self._bag], bag_metadata.OPEN)

@@ -9,6 +9,7 @@ from std_msgs.msg import Float64MultiArray, String
 from mooring_ros.offline import __main__ as command_line  # noqa: F401 - the package as the command line loads it
 from mooring_ros.offline.motion_file import load_motion
 from mooring_ros.recording import schedule
+from mooring_ros.recording.attached import AttachedScene
 from mooring_ros.recording.writer import RecordingWriter
 
 ODOMETRY, POSE, TWIST = "nav_msgs/msg/Odometry", "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/TwistStamped"
@@ -337,7 +338,7 @@ def node_recording(path, leave_out=None):
     messages = [("/platform/odom", ODOMETRY, odometry(*row), row[0]) for row in zip(STAMPS, POSES, CHILD)]
     records = [schedule.encode_settle(0.0, POSES[0])] + [schedule.encode_step(*row) for row in zip(TIMES[1:], POSES[1:], WORLD[1:])]
     records.insert(50, schedule.encode_release(TIMES[49], 1))
-    with RecordingWriter(path, {"dt": 0.01, "scene": "chain.txt"}, "chain.txt", b"SCENE") as writer:
+    with RecordingWriter(path, {"dt": 0.01, "scene": "chain.txt"}, AttachedScene("chain.txt", "SCENE")) as writer:
         for topic, type_name, message, log_time in messages:
             writer.write(topic, type_name, serialize_message(message), log_time)
         for number, record in enumerate(records):
@@ -358,7 +359,7 @@ def test_a_recording_of_the_node_gives_its_schedule_bit_for_bit(tmp_path):
     assert motion.times.tobytes() == TIMES.tobytes() and motion.poses.tobytes() == POSES.tobytes()
     assert motion.twists[1:].tobytes() == WORLD[1:].tobytes()
     assert motion.stamps[3] == 1000 + STAMPS[3] and motion.schedule_stamps[0] == 1000
-    assert motion.parameters == {"dt": 0.01, "scene": "chain.txt"} and motion.scene == ("chain.txt", b"SCENE")
+    assert motion.parameters == {"dt": 0.01, "scene": "chain.txt"} and motion.scene == ("chain.txt", "SCENE", ())
 
 
 def test_a_topic_replays_the_input_of_a_recording_instead(tmp_path):

@@ -62,7 +62,7 @@ def test_the_recording_has_the_topics_of_the_node_and_the_stamps_of_the_source(s
     }
     stamps = [entry.log_time for entry in recording.messages(["/mooring/wrench"])]
     assert stamps == [round(instant * 1e9) for instant in load_motion(motion).times]
-    assert recording.scene == ("scene.txt", scene.read_bytes())
+    assert recording.scene == ("scene.txt", scene.read_text(), ())
 
 
 def test_the_csv_and_the_recording_hold_the_same_bits(scene, motion, mooring, tmp_path):

@@ -10,6 +10,7 @@ from mooring_ros.motion import Adapter
 from mooring_ros.offline.history import load_history
 from mooring_ros.offline.identical import Identical
 from mooring_ros.recording import schedule
+from mooring_ros.recording.attached import AttachedScene
 from mooring_ros.recording.reader import Entry
 from mooring_ros.recording.writer import RecordingWriter
 
@@ -27,7 +28,7 @@ def entry(stamp, values):
 
 def record(path, scene, parameters, records, stamps):
     """A node's recording with nothing but its schedule."""
-    with RecordingWriter(path, parameters, scene.name, scene.read_bytes()) as writer:
+    with RecordingWriter(path, parameters, AttachedScene(scene.name, scene.read_text())) as writer:
         for values, stamp in zip(records, stamps):
             writer.write("/mooring/steps", schedule.TYPE_NAME, array_message(values), stamp)
 

@@ -11,6 +11,7 @@ from sensor_msgs.msg import JointState, PointCloud2, PointField
 from std_msgs.msg import Float64MultiArray, MultiArrayDimension, MultiArrayLayout, String
 from visualization_msgs.msg import Marker, MarkerArray
 
+from mooring_ros.recording.attached import AttachedScene
 from mooring_ros.recording.writer import RecordingWriter
 
 
@@ -45,7 +46,7 @@ def sample_messages():
 def record(sample_messages):
     """record(path, rounds) -> closed RecordingWriter with `rounds` messages on each topic, 1 ms apart."""
     def record_at(path, rounds=20, **options):
-        writer = RecordingWriter(path, {'dt': 0.01, 'scene': 'chain.txt', 'limits.jump': [1, 2]}, 'scenes/chain.txt', b'LINES\n', **options)
+        writer = RecordingWriter(path, {'dt': 0.01, 'scene': 'chain.txt', 'limits.jump': [1, 2]}, AttachedScene('chain.txt', 'LINES\n', (('depths.txt', '2 2\n'),)), **options)
         for number in range(rounds):
             for topic, message in sample_messages.items():
                 writer.write(topic, type_name(message), serialize_message(message), number * 1_000_000, number * 1_000_000)

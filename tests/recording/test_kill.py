@@ -23,8 +23,9 @@ ALLOWED_LOSS = 1_000_000_000
 # Writes 2 kB a message, 1000 messages a second, and says on its standard output what it has handed over.
 CHILD = '''
     import os, struct, sys, time
+    from mooring_ros.recording.attached import AttachedScene
     from mooring_ros.recording.writer import RecordingWriter
-    writer = RecordingWriter(sys.argv[1], {'dt': 0.01}, 'chain.txt', b'LINES')
+    writer = RecordingWriter(sys.argv[1], {'dt': 0.01}, AttachedScene('chain.txt', 'LINES'))
     text = lambda: b'\\0\\1\\0\\0' + struct.pack('<I', 2001) + os.urandom(100).hex().encode() + b'x' * 1800 + b'\\0'
     writer.declare('/a', 'std_msgs/msg/String')
     start, sent = time.monotonic(), 0

@@ -31,7 +31,7 @@ def test_messages_come_with_topic_type_times_and_bytes_in_order(tmp_path, record
 def test_parameters_and_scene_come_back(tmp_path, record):
     recording = Recording(record(tmp_path / 'run').path)
     assert recording.parameters == {'dt': 0.01, 'scene': 'chain.txt', 'limits.jump': [1, 2]}
-    assert recording.scene == ('chain.txt', b'LINES\n')
+    assert recording.scene == ('chain.txt', 'LINES\n', (('depths.txt', '2 2\n'),))
     assert recording.cut is None and not recording.damage
 
 

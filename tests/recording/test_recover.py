@@ -50,7 +50,7 @@ def test_attachments_metadata_and_sequence_survive(tmp_path, record):
     path.write_bytes(path.read_bytes()[:-100])
     recover(path, out)
     before, after = Recording(path), Recording(out)
-    assert after.parameters == before.parameters and after.scene == before.scene == ('chain.txt', b'LINES\n')
+    assert after.parameters == before.parameters and after.scene == before.scene == ('chain.txt', 'LINES\n', (('depths.txt', '2 2\n'),))
     assert list(after.messages()) == list(before.messages())
 
 

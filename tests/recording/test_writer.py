@@ -11,6 +11,7 @@ import yaml
 from mcap.reader import make_reader
 
 from mooring_ros.recording import RecordingError
+from mooring_ros.recording.attached import AttachedScene
 from mooring_ros.recording.qos import Qos
 from mooring_ros.recording.reader import Recording
 from mooring_ros.recording.writer import RecordingWriter
@@ -59,7 +60,8 @@ def test_profile_parameters_and_scene_are_in_the_file(tmp_path, record):
     with open(record(tmp_path / 'run.mcap').file, 'rb') as file:
         reader = make_reader(file)
         assert reader.get_header().profile == 'ros2' and reader.get_header().library.startswith('mooring_ros')
-        assert [(a.name, a.media_type, a.data) for a in reader.iter_attachments()] == [('chain.txt', 'text/plain', b'LINES\n')]
+        assert [(a.name, a.media_type, a.data) for a in reader.iter_attachments()] == [
+            ('chain.txt', 'text/plain', b'LINES\n'), ('depths.txt', 'text/plain;role=scene-file', b'2 2\n')]
         metadata = {record.name: record.metadata for record in reader.iter_metadata()}
         assert metadata['mooring_ros'] == {'dt': '0.01', 'scene': '"chain.txt"', 'limits.jump': '[1, 2]'}
         summary = reader.get_summary()
@@ -115,10 +117,14 @@ def test_parameters_of_numpy_come_back_as_numbers(tmp_path):
     assert Recording(writer.path).parameters == {'a': 0.1, 'b': [0, 1, 2], 'c': str(tmp_path), 'd': True, 'e': 'text'}
 
 
-def test_a_scene_given_as_text_is_kept_as_its_bytes(tmp_path):
-    with RecordingWriter(tmp_path / 'run.mcap', {}, 'a/b/chain.txt', 'Ketten für Ålesund\r\n') as writer:
+def test_a_scene_and_the_files_it_was_read_from_are_attachments_with_their_bytes(tmp_path):
+    scene = AttachedScene('chain.txt', 'Ketten für Ålesund\r\n', (('sea/depths.txt', '2 2\n'), ('stiffness\\a.txt', 'é\n')))
+    with RecordingWriter(tmp_path / 'run.mcap', {}, scene) as writer:
         pass
-    assert Recording(writer.path).scene == ('chain.txt', 'Ketten für Ålesund\r\n'.encode())
+    assert Recording(writer.path).scene == scene
+    with open(writer.path, 'rb') as file:
+        found = {each.name: each.data for each in make_reader(file).iter_attachments()}
+    assert found == {'chain.txt': 'Ketten für Ålesund\r\n'.encode(), 'sea/depths.txt': b'2 2\n', 'stiffness\\a.txt': 'é\n'.encode()}
 
 
 def test_one_topic_has_one_type(tmp_path):
