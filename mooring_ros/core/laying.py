@@ -10,7 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .ground import NO_CONTACT, SLIDING, bed_level
+from .bed import bed_level
+from .ground import NO_CONTACT, SLIDING
 from .layout import POINT_COUPLED, POINT_FIXED
 from .model import LOOSE
 

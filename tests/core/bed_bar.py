@@ -3,7 +3,8 @@
 import numpy as np
 from scipy.linalg import solve_banded
 
-from mooring_ros.core.ground import bed_under, build_ground, commit_grip, contact, ground_blocks
+from mooring_ros.core.bed import bed_under, build_ground
+from mooring_ros.core.ground import commit_grip, contact, ground_blocks
 from mooring_ros.scene import Environment
 from mooring_ros.scene.description import Friction
 

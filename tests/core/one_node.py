@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from mooring_ros.core.ground import bed_under, contact
+from mooring_ros.core.bed import bed_under
+from mooring_ros.core.ground import contact
 
 STIFFNESS, DAMPING = 2e5, 1e4
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import RegularGridInterpolator
 
-from mooring_ros.core.ground import bed_at, bed_level, bed_under, build_ground
+from mooring_ros.core.bed import bed_at, bed_level, bed_under, build_ground
 from mooring_ros.scene import Environment
 from mooring_ros.scene.description import Bathymetry, Friction
 

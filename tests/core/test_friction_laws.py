@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from mooring_ros.core.ground import build_ground, commit_grip, ground_blocks
+from mooring_ros.core.bed import build_ground
+from mooring_ros.core.ground import commit_grip, ground_blocks
 from mooring_ros.scene import Environment
 from mooring_ros.scene.description import Friction
 

@@ -150,8 +150,8 @@ def test_what_slides_up_a_slope_is_slowed_by_kinetic_friction_and_stays(law, ste
     for _ in range(int(4.0 / step)):
         bar.leap(np.zeros(3), step)
     deceleration = weight * (np.sin(angle) + 0.5 * np.cos(angle)) / (mass + added)
-    # half a step at 2 m/s is the scheme's own
-    assert (bar.position[:, 1] - start) @ up == pytest.approx(2.0 / deceleration, abs=0.01 + 1.1 * step)
+    # half a step at 2 m/s is the scheme's own, and in the first one it has not begun to slide
+    assert (bar.position[:, 1] - start) @ up == pytest.approx(2.0 / deceleration, abs=0.01 + 2.0 * step)
     assert np.linalg.norm(bar.velocity[:, 1]) < (1e-9 if law == "stick" else 2e-3)  # the saturated law creeps
 
 
