@@ -7,6 +7,7 @@ The bending energy of a line is the integral of M^2 / 2 EI along it. Hinges of s
 trapezoidal rule, and M^2 has a slope at a clamp: the deflection of a tip load is 1 / 2N^2 too large. The flexibilities (3/8, 7/6, 23/24) l/EI at a
 clamp and the next two nodes are that rule with Gregory's end correction of third order: right for every moment that is linear along the
 line, and Simpson's rules where a line of two or three segments is clamped on both sides. At pinned and free ends M^2 has no slope.
+At joints, where the stiffness or the fineness may change, each section has the same correction at its end.
 """
 
 from typing import NamedTuple
@@ -16,7 +17,7 @@ import numpy as np
 from ..scene.description import ANGLE
 
 GREGORY = (-1.0 / 8.0, 1.0 / 6.0, -1.0 / 24.0)  # correction of the trapezoidal rule's weights from an end inwards
-ONE_SEGMENT = 1.0 / 3.0  # weight of a clamp whose line has one segment and is free to turn at its other end: right for a tip load
+ONE_SEGMENT = 1.0 / 3.0  # weight of a clamp or joint whose line has one segment and is free to turn at its other end: right for a tip load
 MEASURES = {True: (1.0 / 6.0, 3.0 / 40.0, 0.08), False: (0.0, 0.0, 0.0)}  # r - 1: of the angle (asin(s) / s), of the paper
 
 
@@ -49,12 +50,11 @@ def build_bending(lines, clamps, joints, n, measure=ANGLE):
     measure: "angle" (with corrected ends) or "paper".
     """
     corrected = measure == ANGLE
-    clamped = {end for end, _ in clamps}
-    bent = clamped | {end for _, members in joints for end, _ in members}
+    bent = {end for end, _ in clamps} | {end for _, members in joints for end, _ in members}
     stiffness, reach = np.zeros(n), np.zeros(n)
     for k, (first, count, length, rigidity) in enumerate(lines):
         ends = (2 * k, 2 * k + 1)
-        weights = _weights(count, [end in clamped for end in ends], all(end in bent for end in ends)) if corrected else _trapezoid(count)
+        weights = _weights(count, [end in bent for end in ends]) if corrected else _trapezoid(count)
         nodes = slice(first, first + count + 1)
         reach[nodes] = length * weights
         stiffness[nodes] = rigidity / (length * weights)
@@ -90,14 +90,14 @@ def _trapezoid(count):
     return weights
 
 
-def _weights(count, clamped, both_held):
-    """The same with Gregory's correction at the ends that are `clamped` (end A, end B)."""
-    if count == 1:  # held at both ends no weights suit both of its modes
-        return _trapezoid(count) if both_held else np.full(2, ONE_SEGMENT)
+def _weights(count, bent):
+    """The same with Gregory's correction at the ends that are `bent` (end A, end B): clamped or joined to others."""
+    if count == 1:  # bent at both ends no weights suit both of its modes
+        return _trapezoid(count) if all(bent) else np.full(2, ONE_SEGMENT)
     weights = _trapezoid(count)
     for k, correction in enumerate(GREGORY):
-        weights[k] += correction * clamped[0]
-        weights[count - k] += correction * clamped[1]
+        weights[k] += correction * bent[0]
+        weights[count - k] += correction * bent[1]
     return weights
 
 

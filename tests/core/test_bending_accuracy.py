@@ -6,7 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from bent_lines import BentLines
+from scipy.integrate import solve_bvp
 from scipy.linalg import eigh
+from scipy.optimize import root
 
 from mooring_ros.core.hinges import stiffness_rows
 
@@ -94,6 +96,42 @@ def straight(count, clamps, measure="angle", rigidity=1.0):
 
 
 AXIS = np.array([1.0, 0.0, 0.0])
+
+
+def sections_deflect(load, softer, first, second):
+    """Tip deflection of a cantilever whose first 0.4 of 1 m have EI 1 and the rest EI `softer`, as two lines at a joint of rigid segments."""
+    lines = BentLines([(first, 0.4, 1.0), (second, 0.6, softer)], [(0, AXIS)], [[(1, -1.0), (2, 1.0)]])
+    spans = np.repeat([0.4 / first, 0.6 / second], [first, second])
+    nodes = np.concatenate([np.arange(first + 1), np.arange(first, first + second + 1)])
+
+    def turning_moments(angles):
+        places = np.concatenate([[[0.0, 0.0]], np.cumsum(spans[:, None] * np.column_stack([np.cos(angles), np.sin(angles)]), axis=0)])
+        lines.position[:2, : lines.size] = places[nodes].T
+        force = lines.forces(lines.position)[0][:2, : lines.size].copy()
+        force[1, -1] += load
+        beyond = np.array([force[:, nodes > k].sum(axis=1) for k in range(first + second)])
+        return spans * (beyond[:, 1] * np.cos(angles) - beyond[:, 0] * np.sin(angles))
+
+    found = root(turning_moments, np.full(first + second, 0.2 * load), tol=1e-12)
+    assert found.success
+    turning_moments(found.x)
+    return lines.position[1, lines.size - 1]
+
+
+@pytest.mark.parametrize("softer", [0.2, 1.0, 5.0])
+def test_sections_of_different_stiffness_and_fineness_deflect_as_the_elastica(softer):
+    load = 1.0
+
+    def slopes(s, y):
+        return np.array([y[1] / np.where(s < 0.4, 1.0, softer), -load * np.cos(y[0]), np.sin(y[0])])
+
+    mesh = np.sort(np.append(np.linspace(0.0, 1.0, 501), [0.4 - 1e-9, 0.4 + 1e-9]))
+    guess = np.array([0.3 * mesh, load * (1.0 - mesh), 0.15 * mesh**2])
+    exact = solve_bvp(slopes, lambda a, b: np.array([a[0], b[1], a[2]]), mesh, guess, tol=1e-6, max_nodes=20000).y[2, -1]
+    for counts, bound in (((4, 6), 1.5e-3), ((8, 3), 1.5e-3), ((16, 12), 4e-4)):
+        assert sections_deflect(load, softer, *counts) == pytest.approx(exact, rel=bound)
+
+
 CLAMPS = {
     "clamped-free": ([(0, AXIS)], slice(1, None)),
     "clamped-clamped": ([(0, AXIS), (1, -AXIS)], slice(1, -1)),
