@@ -8,10 +8,24 @@ the place where the node holds on (m), and -1 for no contact, 0 sticking, 1 slid
 import numpy as np
 
 from .bathymetry import grid_under
-from .bed import unit_normal
+from .bed import Ground, bed_at, bed_level, bed_under, build_ground, unit_normal
 from .cache import kernel, stage
 from .friction import LEAST, NO_FRICTION, ROUNDING, SATURATED, STICK, return_to_ellipse, saturated_part
 from .tension import TINY
+
+__all__ = [  # the bed as the rest of the core knows it
+    "NO_CONTACT",
+    "SLIDING",
+    "STICKING",
+    "Ground",
+    "bed_at",
+    "bed_level",
+    "bed_under",
+    "build_ground",
+    "commit_grip",
+    "contact",
+    "ground_blocks",
+]
 
 LIGHTEST = 1e-30  # kg: keeps a node without inertia from dividing by zero
 UPRIGHT = 1e-24  # square of the tangent's part along the bed, below which a node has no direction there
