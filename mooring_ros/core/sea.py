@@ -57,6 +57,15 @@ def build_sea(environment):
     )
 
 
+def fastest_water(environment):
+    """Speed (m/s) that currents, and the crests of all components together, do not pass."""
+    sea = build_sea(environment)
+    rows = np.array(environment.current_profile, dtype=float).reshape(-1, 4)
+    profile = np.max(np.linalg.norm(rows[:, 1:], axis=1), initial=0.0)
+    crests = np.sum(sea.frequency * sea.amplitude / np.tanh(sea.wave_number * sea.depth))
+    return float(np.linalg.norm(environment.current) + profile + crests)
+
+
 def components(waves):
     """(frequency, amplitude, phase), each (J,), of a `Waves` description."""
     if waves.kind == REGULAR:

@@ -1,15 +1,20 @@
-"""The free surface at z = 0: only the wet part of a segment or point feels water."""
+"""The free surface, still or in waves: only the wet part of a segment or point feels water."""
 
 from .cache import stage
 
 
 @stage
 def reaches_above(model, state, level):
-    """True when any node stands above `level` (m)."""
+    """True when any node stands higher than `level` (m) above the surface."""
     z = state.position[2]
     above = 0
-    for i in range(model.size):
-        above |= z[i] > level
+    if state.swell.shape[1] > 0:
+        elevation = state.swell[3]
+        for i in range(model.size):
+            above |= z[i] - elevation[i] > level
+    else:
+        for i in range(model.size):
+            above |= z[i] > level
     return above != 0
 
 
@@ -27,12 +32,21 @@ def wet_shares(model, state, scratch):
     A segment between depths a and b, a cylinder of diameter d, is taken to go under evenly over the vertical extent |a - b| + d, which is
     exact for a steep one and has the right ends for one that lies in the surface.
     """
-    z, wet, part = state.position[2], state.wet, scratch.wet_segment
+    if state.swell.shape[1] > 0:
+        _share(model, state.position[2], state.swell[3], 1.0, state.wet, scratch.wet_segment)
+    else:
+        _share(model, state.position[2], state.position[2], 0.0, state.wet, scratch.wet_segment)
+
+
+@stage
+def _share(model, z, elevation, waves, wet, part):
+    """Wet shares of nodes at heights z - waves x elevation (m) above the surface; `part` (n,) gets those of the segments."""
     diameter, share_left, share_right = model.diameter, model.share_left, model.share_right
     for i in range(model.size):
         radius = 0.5 * diameter[i + 1]
-        deep = max(-z[i], -z[i + 1]) + radius
-        shallow = min(-z[i], -z[i + 1]) - radius
+        left, right = waves * elevation[i] - z[i], waves * elevation[i + 1] - z[i + 1]
+        deep = max(left, right) + radius
+        shallow = min(left, right) - radius
         part[i + 1] = (max(deep, 0.0) - max(shallow, 0.0)) / max(deep - shallow, 1e-9)
     for i in range(model.size):
         wet[i] = 1.0 + share_left[i] * (part[i] - 1.0) + share_right[i] * (part[i + 1] - 1.0)
@@ -40,8 +54,9 @@ def wet_shares(model, state, scratch):
         node = model.point_node[p]
         if node >= model.size:
             continue
+        height = z[node] - waves * elevation[node]
         if model.point_diameter[p] > 0.0:
-            under = min(max(0.5 - z[node] / model.point_diameter[p], 0.0), 1.0)
+            under = min(max(0.5 - height / model.point_diameter[p], 0.0), 1.0)
             wet[node] = under * under * (3.0 - 2.0 * under)
         else:
-            wet[node] = 1.0 if z[node] <= 0.0 else 0.0
+            wet[node] = 1.0 if height <= 0.0 else 0.0

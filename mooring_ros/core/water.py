@@ -1,4 +1,4 @@
-"""Weight, buoyancy, added mass and Morison drag of the nodes in the water's stream."""
+"""Weight, buoyancy, added mass and Morison drag of the nodes in the water's stream, and what waves add."""
 
 import numpy as np
 
@@ -36,3 +36,24 @@ def water_loads(model, state, drag_time):
         fz[i] += resist_axial * az + resist_normal * nz + (wet[i] * buoyancy[i] - weight[i])
         inertia_normal[i] = max(mass[i] + wet[i] * added_normal[i], resist_normal * drag_time)
         inertia_axial[i] = max(mass[i] + wet[i] * added_axial[i], resist_axial * drag_time)
+
+
+@stage
+def add_swell_loads(model, gravity, state):
+    """Add Froude-Krylov and inertia forces in the water's acceleration a: rho V [(1 + Ca)(a - t (t.a)) + (1 + CaAx) t (t.a)], what is wet of it.
+
+    A point has no tangent t, and its coefficients are alike in all directions.
+    """
+    ax, ay, az = state.swell[0], state.swell[1], state.swell[2]
+    qx, qy, qz = state.tangent[0], state.tangent[1], state.tangent[2]
+    fx, fy, fz = state.force[0], state.force[1], state.force[2]
+    wet, buoyancy, added_normal, added_axial = state.wet, model.buoyancy, model.added_normal, model.added_axial
+    per_gravity = 1.0 / gravity
+    for i in range(model.size):
+        tx, ty, tz = qx[i] + qx[i + 1], qy[i] + qy[i + 1], qz[i] + qz[i + 1]
+        inverse_square = 1.0 / max(tx * tx + ty * ty + tz * tz, TINY)
+        across = wet[i] * (buoyancy[i] * per_gravity + added_normal[i])
+        along = wet[i] * (added_axial[i] - added_normal[i]) * (ax[i] * tx + ay[i] * ty + az[i] * tz) * inverse_square
+        fx[i] += across * ax[i] + along * tx
+        fy[i] += across * ay[i] + along * ty
+        fz[i] += across * az[i] + along * tz

@@ -165,10 +165,10 @@ def _sum_end(sea, time, ahead, size, position, velocity, work, window, end):
 def _weights(time, window_times):
     """Cubic Hermite at `time` (s): weights of (near value, near rate, far value, far rate), the same for the rate, and the share of the way.
 
-    An empty window is all near end.
+    A window of no length, or of all times, is all near end.
     """
     width = window_times[1] - window_times[0]
-    if not width > 0.0:
+    if not 0.0 < width < np.inf:
         return (1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0), 0.0
     s = (time - window_times[0]) / width
     rest = 1.0 - s
@@ -184,10 +184,10 @@ def outdated(window_times, start, end):
     return not (window_times[0] <= start and end <= window_times[1])
 
 
-@stage
+@kernel
 def calm(window_times, window):
-    """Empty the window: still water, and nothing to continue from."""
-    window_times[0], window_times[1] = 0.0, -1.0
+    """Still water at all times, until `waken`."""
+    window_times[0], window_times[1] = -np.inf, np.inf
     for end in range(2):
         for row in range(WINDOW_ROWS):
             for i in range(window.shape[2]):
@@ -195,13 +195,28 @@ def calm(window_times, window):
 
 
 @kernel
+def waken(window_times):
+    """Let the next `refresh` start anew."""
+    window_times[0], window_times[1] = 0.0, -1.0
+
+
+@stage
+def copy_window(times, window, times_to, window_to):
+    times_to[0], times_to[1] = times[0], times[1]
+    for end in range(2):
+        for row in range(WINDOW_ROWS):
+            for i in range(window.shape[2]):
+                window_to[end, row, i] = window[end, row, i]
+
+
+@kernel
 def refresh(sea, start, end, size, position, velocity, work, window_times, window):
     """Make the window hold the times from `start` to `end` (s), with the nodes now, at `start`, at `position` and `velocity` (3, n).
 
     It then spans `sea.refresh`, or up to `end` where that is later. Where the old window holds `start`, the new one goes on from there
-    without a jump; otherwise both ends are summed.
+    without a jump; otherwise both ends are summed. Without waves nothing is done.
     """
-    if not outdated(window_times, start, end):
+    if window.shape[2] == 0 or not outdated(window_times, start, end):
         return
     far = max(start + sea.refresh, end)
     if window_times[0] <= start <= window_times[1]:
@@ -223,8 +238,8 @@ def refresh(sea, start, end, size, position, velocity, work, window_times, windo
 
 @stage
 def streams(sea, time, size, position, window_times, window, stream, swell):
-    """Water at the nodes at `time` (s): stream (3, n), its velocity (m/s); the first rows of swell (5, n), the waves' acceleration (m/s^2)
-    and elevation (m). Without waves and layers of current nothing changes, and they are left as they are.
+    """Water at the nodes at `time` (s): stream (3, n), its velocity (m/s); swell (4, n), the waves' acceleration (m/s^2) and
+    elevation (m). Without waves and layers of current nothing changes, and they are left as they are.
 
     At a node above the surface it is the water of the surface under it: what is wet of its neighbourhood moves with that.
     """

@@ -22,7 +22,7 @@ def flow(environment, z):
     waves = n if environment.waves else 0
     position = np.array([np.zeros(n), np.zeros(n), z])
     times, window = np.array([0.0, -1.0]), np.zeros((2, WINDOW_ROWS, waves))
-    stream, swell = np.tile(sea.current[:, None], n), np.zeros((5, waves))
+    stream, swell = np.tile(sea.current[:, None], n), np.zeros((4, waves))
     if waves:
         refresh(sea, 0.0, 0.0, n, position, np.zeros((3, n)), np.zeros(WORK_SIZE), times, window)
     streams_at(sea, 0.0, n, position, times, window, stream, swell)

@@ -16,11 +16,6 @@ def streams_at(sea, time, size, position, window_times, window, stream, swell):
     streams(sea, time, size, position, window_times, window, stream, swell)
 
 
-@kernel
-def calm_down(window_times, window):
-    calm(window_times, window)
-
-
 class Nodes:
     """Nodes (3, n) in a sea, with the arrays that a state has for them."""
 
@@ -30,7 +25,7 @@ class Nodes:
         self.velocity = np.array(np.broadcast_to(velocity, self.position.shape), dtype=float)
         n = self.position.shape[1]
         self.times, self.window, self.work = np.array([0.0, -1.0]), np.zeros((2, WINDOW_ROWS, n)), np.zeros(WORK_SIZE)
-        self.stream, self.swell = np.zeros((3, n)), np.zeros((5, n))
+        self.stream, self.swell = np.zeros((3, n)), np.zeros((4, n))
 
     def refresh(self, start, end=None):
         end = start if end is None else end
@@ -187,10 +182,10 @@ def test_the_window_reaches_to_the_end_of_a_long_step():
         assert np.max(np.abs(found - exact)) < 1e-5 * np.max(np.abs(exact))
 
 
-def test_an_empty_window_is_still_water():
+def test_a_calm_window_is_still_water():
     nodes = Nodes(Environment(depth=70.0, current=(0.4, 0.1, 0.0), waves=STORM), scattered(40, 70.0))
     nodes.refresh(10.0, 10.2)
-    calm_down(nodes.times, nodes.window)
+    calm(nodes.times, nodes.window)
     velocity, acceleration, eta = nodes.at(10.1)
     assert np.all(velocity == np.array([[0.4], [0.1], [0.0]])) and not np.any(acceleration) and not np.any(eta)
 
