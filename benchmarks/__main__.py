@@ -17,6 +17,7 @@ BENCHMARKS = {
     "bathymetry": "the VolturnUS-S semi-taut mooring on four beds without friction, against MoorDyn and CableDyn",
     "friction": "bed friction along and across a chain and in waves: both laws, closed form, CableDyn",
     "iswec": "load and excursion of the two ISWEC moorings, against MoorPy",
+    "ropes": "a viscoelastic rope, stretched, held and swung, against closed forms and MoorDyn",
     "node_latency": "the ROS 2 node: input stamp to wrench, against an empty echo node",
 }
 MODULES = {"node_latency": "latency_table"}  # where it is not the name itself
