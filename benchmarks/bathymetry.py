@@ -51,7 +51,7 @@ def of_ours(scene, times, motion=MOTION):
     mooring = Mooring(replace(scene, environment=replace(scene.environment, friction=None)))
     mooring.settle(at_rest(motion))
     history = mooring.run(*samples(motion, 1.0 / SAMPLE))
-    return CubicSpline(history.times, np.array(history.fairlead_tension)[:, fairleads(scene)])(times)
+    return CubicSpline(history.time, np.array(history.fairlead_tension)[:, fairleads(scene)])(times)
 
 
 def run(quick=False):
