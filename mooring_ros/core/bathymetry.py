@@ -31,13 +31,14 @@ class Grid(NamedTuple):
     bins_y: np.ndarray
     per_x: float  # bins a metre
     per_y: float
+    top: float  # highest z, m
 
 
 def build_grid(bathymetry):
     """Grid of a scene's Bathymetry, or an empty one for None. Raises ValueError for what is not a grid."""
     if bathymetry is None:
         none, empty = np.zeros(0), np.zeros(0, dtype=np.int64)
-        return Grid(none, none, none, none, none, none, none, none, empty, empty, 0.0, 0.0)
+        return Grid(none, none, none, none, none, none, none, none, empty, empty, 0.0, 0.0, 0.0)
     x, y = _grid_lines(bathymetry.x, "x"), _grid_lines(bathymetry.y, "y")
     z = -np.array(bathymetry.depth, dtype=float)
     if z.shape != (len(bathymetry.x), len(bathymetry.y)) or not np.isfinite(z).all():
@@ -50,7 +51,7 @@ def build_grid(bathymetry):
     cells = (part.ravel() for part in (corner, by_x, by_y, twist))
     bins_x, per_x = _bins(x, "x")
     bins_y, per_y = _bins(y, "y")
-    return Grid(x, y, *cells, _rounding(x), _rounding(y), bins_x, bins_y, per_x, per_y)
+    return Grid(x, y, *cells, _rounding(x), _rounding(y), bins_x, bins_y, per_x, per_y, float(z.max()))
 
 
 def _grid_lines(values, name):

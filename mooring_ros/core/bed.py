@@ -61,7 +61,7 @@ def bed_at(ground, x, y):
     """z (m) of the bed and its unit normal at x, y (m) of any one shape: an array (4, *shape)."""
     x, y = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
     place, bed = np.zeros((3, x.size)), np.zeros((4, x.size))
-    place[0], place[1] = x.ravel(), y.ravel()
+    place[0], place[1], place[2] = x.ravel(), y.ravel(), -np.inf
     bed_under(ground, x.size, place, bed)
     return bed.reshape(4, *x.shape)
 
@@ -79,8 +79,11 @@ def unit_normal(slope_x, slope_y):
 
 @kernel
 def bed_under(ground, size, position, bed):
-    """bed (4, n): z of the bed under each node (m) and its unit normal."""
-    x, y = position[0], position[1]
+    """bed (4, n): z of the bed under each node (m) and its unit normal.
+
+    Under a node above all of a grid: the grid's highest z and a vertical normal, which is enough to know that it does not touch.
+    """
+    x, y, place_z = position[0], position[1], position[2]
     level, nx, ny, nz = bed[0], bed[1], bed[2], bed[3]
     if ground.grid.x.size == 0:
         slope_x, slope_y = ground.slope
@@ -92,6 +95,8 @@ def bed_under(ground, size, position, bed):
             nz[i] = normal_z
     else:
         for i in range(size):
-            z, slope_x, slope_y = grid_under(ground.grid, x[i], y[i])
+            z, slope_x, slope_y = ground.grid.top, 0.0, 0.0
+            if not place_z[i] > z:
+                z, slope_x, slope_y = grid_under(ground.grid, x[i], y[i])
             level[i] = z
             nx[i], ny[i], nz[i] = unit_normal(slope_x, slope_y)

@@ -2,7 +2,7 @@
 
 Both are taken implicitly over the Euler step: the force is that of the law at the velocity which the node has after it, so that it stops
 a node and never turns it round. `drift` is the velocity (m/s) that the node would have after the step without friction, split along the
-line (axial) and across it; `yield_axial` = step / inertia along the line and `yield_across` (s/kg) turn a force into what it takes of it.
+line (axial) and across it; `give` (s/kg), the step over the inertia in a direction, turns a force into what it takes of the drift.
 """
 
 import numpy as np
@@ -16,56 +16,39 @@ NO_FRICTION, SATURATED, STICK = 0, 1, 2  # laws
 # metres, so tensions see a bed that does not give way.
 MODULUS = 3e8
 ROUNDING = 1e-9  # of the limit: a trial force that passes it by less sticks again
+LEAST = 1e-20  # N, m/s: keeps what is at rest or without load from dividing by zero
+SMOOTHEST = 1e-12  # coefficient that stands for none
 SMALLEST = 1e-300
-LEAST = 1e-60  # N, m/s: keeps what is at rest or without load from dividing by zero
 
 
 @stage
 def saturated_part(drift, speed, normal, static, kinetic, ramp, give):
-    """(speed-proportional coefficient to apply to the drift, the law's secant) in N s/m for one direction, Housner et al. 2022, eq. 7-12.
+    """Force (N) in one direction over the drift in it (m/s), Housner et al. 2022, eq. 7-12.
 
-    The force is mu_s c_v s while mu_s c_v s is at most mu_s N, and mu_k N beyond, at the speed s after the step: s = drift - give f(s).
+    The force f is mu_s c_v s while mu_s c_v s is at most mu_s N, and mu_k N beyond, at the speed s after the step: s = drift - give f(s).
     Where both branches hold (mu_s > mu_k), that of the present `speed` goes on.
     """
     sticky = static * ramp
-    creep = drift / (1.0 + give * sticky)
-    slide = ramp * (drift - give * kinetic * normal) > normal and (ramp * speed > normal or ramp * creep > normal)
-    force = kinetic * normal if slide else sticky * creep
-    secant = kinetic * normal / max(speed, LEAST) if ramp * speed > normal else sticky
-    return force / max(drift, LEAST), secant
+    slower = 1.0 + give * sticky
+    slide = ramp * (drift - give * kinetic * normal) > normal and (ramp * speed > normal or ramp * drift > normal * slower)
+    return (kinetic * normal if slide else sticky) / (max(drift, LEAST) if slide else slower)
 
 
 @stage
-def return_to_ellipse(axial, across, limit_axial, limit_across, give_axial, give_across):
-    """Elastic-plastic force for the trial force (axial, across >= 0; N) of a node that stays where it drifts to.
+def return_to_ellipse(axial, across, give_axial, give_across):
+    """Elastic-plastic force for the trial force of a node that stays where it drifts to: factors on its axial part and on that across.
 
-    `limit_*` (N) are the half axes of the ellipse of forces at which it slides, `give_*` how much of the trial force the node's own
-    giving way within the step takes, in parts of it. Returns (factor on axial, factor on across, share): the part `share` <= 1 of the
-    trial force at the place and velocity after the step, inside or on the ellipse. So friction acts against the slip, whatever the
-    inertia in both directions.
+    `axial`, `across`: squares of both parts over the forces at which each alone slides. `give_*`: how much of a force the node's own giving
+    way within the step takes, in parts of it. The force is the share <= 1 of the trial force at the place and velocity after the step that
+    lies inside the ellipse or on it. So friction acts against the slip, whatever the inertia in both directions.
     """
-    a, b = axial / max(limit_axial, LEAST), across / max(limit_across, LEAST)
-    a, b = a * a, b * b
-    both = max(a + b, SMALLEST)
-    inverse = max(np.sqrt(both) - (a * give_axial + b * give_across) / both, 1.0)  # 1/share if both gave way by their weighted mean
-    inverse = _sharper(a, b, inverse, give_axial, give_across)
-    p, q = _parts(inverse, give_axial, give_across)
-    onto = np.sqrt(max(a * p * p + b * q * q, SMALLEST))
-    onto = 1.0 / onto if inverse > 1.0 or onto > 1.0 else 1.0
-    return p * onto, q * onto, 1.0 / inverse
-
-
-@stage
-def _parts(inverse, give_axial, give_across):
-    axial, across = inverse + give_axial, inverse + give_across
-    both = 1.0 / (axial * across)
-    return across * both, axial * both
-
-
-@stage
-def _sharper(a, b, inverse, give_axial, give_across):
-    """A Newton step for the load that reaches the ellipse, on its inverse root, which is almost linear in `inverse`."""
-    p, q = _parts(inverse, give_axial, give_across)
-    a, b = a * p * p, b * q * q
-    load = a + b
-    return max(inverse + load * (np.sqrt(load) - 1.0) / max(a * p + b * q, SMALLEST), 1.0)
+    both = max(axial + across, SMALLEST)
+    inverse = max(np.sqrt(both) - (axial * give_axial + across * give_across) / both, 1.0)  # 1/share if both gave way by their weighted mean
+    # one Newton step on the inverse root of the load, which is almost linear in 1/share
+    p, q = inverse + give_axial, inverse + give_across
+    a, b = axial * q * q, across * p * p
+    inverse = max(inverse + (a + b) * (np.sqrt(a + b) - p * q) / max(a * q + b * p, SMALLEST), 1.0)
+    p, q = inverse + give_axial, inverse + give_across
+    load = np.sqrt(axial * q * q + across * p * p)
+    scale = 1.0 / (load if inverse > 1.0 or load > p * q else p * q)
+    return q * scale, p * scale

@@ -10,7 +10,7 @@ import numpy as np
 from .bathymetry import grid_under
 from .bed import Ground, bed_at, bed_level, bed_under, build_ground, unit_normal
 from .cache import kernel, stage
-from .friction import LEAST, NO_FRICTION, ROUNDING, SATURATED, STICK, return_to_ellipse, saturated_part
+from .friction import LEAST, NO_FRICTION, ROUNDING, SATURATED, SMOOTHEST, STICK, return_to_ellipse, saturated_part
 from .tension import TINY
 
 __all__ = [  # the bed as the rest of the core knows it
@@ -62,11 +62,8 @@ def contact(
     plain law. Nodes that are `slaved` (n,) share their motion with others: their forces are those of the law at their place and speed,
     and hold (2, n) is what their owner adds to the inertia (kg) along the normal and in the tangent plane.
     """
-    if ground.law == NO_FRICTION:
-        _smooth(size, step, position, velocity, tangent, bed_stiffness, bed_damping, inertia_normal, inertia_axial, slaved, bed, force, hold)
-        return
     start = 0
-    while start < size:  # the laws of friction cost more than asking who needs them
+    while start < size:  # the laws cost more than asking who needs them
         stop = start
         while stop < size and _touches(position, bed, stop, min(stop + TOGETHER, size)):
             stop = min(stop + TOGETHER, size)
@@ -74,6 +71,23 @@ def contact(
             stop = min(start + TOGETHER, size)
             for i in range(start, stop):
                 hold[0, i] = hold[1, i] = 0.0
+        elif ground.law == NO_FRICTION:
+            _smooth(
+                start,
+                stop,
+                step,
+                position,
+                velocity,
+                tangent,
+                bed_stiffness,
+                bed_damping,
+                inertia_normal,
+                inertia_axial,
+                slaved,
+                bed,
+                force,
+                hold,
+            )
         elif ground.law == SATURATED:
             _saturated(
                 ground,
@@ -123,13 +137,15 @@ def _touches(position, bed, start, stop):
 
 
 @stage
-def _smooth(size, step, position, velocity, tangent, bed_stiffness, bed_damping, inertia_normal, inertia_axial, slaved, bed, force, hold):
-    z, u, v, w = position[2], velocity[0], velocity[1], velocity[2]
-    qx, qy, qz = tangent[0], tangent[1], tangent[2]
-    fx, fy, fz = force[0], force[1], force[2]
-    level, normal_x, normal_y, normal_z = bed[0], bed[1], bed[2], bed[3]
-    hold_normal, hold_along = hold[0], hold[1]
-    for i in range(size):
+def _smooth(first, stop, step, position, velocity, tangent, bed_stiffness, bed_damping, inertia_normal, inertia_axial, slaved, bed, force, hold):
+    z, u, v, w = position[2, first:stop], velocity[0, first:stop], velocity[1, first:stop], velocity[2, first:stop]
+    qx, qy, qz = tangent[0, first : stop + 1], tangent[1, first : stop + 1], tangent[2, first : stop + 1]
+    fx, fy, fz = force[0, first:stop], force[1, first:stop], force[2, first:stop]
+    level, normal_x, normal_y, normal_z = bed[0, first:stop], bed[1, first:stop], bed[2, first:stop], bed[3, first:stop]
+    hold_normal, hold_along = hold[0, first:stop], hold[1, first:stop]
+    bed_stiffness, bed_damping, slaved = bed_stiffness[first:stop], bed_damping[first:stop], slaved[first:stop]
+    inertia_normal, inertia_axial = inertia_normal[first:stop], inertia_axial[first:stop]
+    for i in range(stop - first):
         nx, ny, nz = normal_x[i], normal_y[i], normal_z[i]
         tx, ty, tz = qx[i] + qx[i + 1], qy[i] + qy[i + 1], qz[i] + qz[i + 1]
         across, surplus = _mobility(tx, ty, tz, inertia_normal[i], inertia_axial[i], slaved[i])
@@ -153,13 +169,12 @@ def _in_plane(x, y, z, nx, ny, nz):
 
 
 @stage
-def _axial_direction(tx, ty, tz, nx, ny, nz):
-    """Unit vector of the tangent's part in the bed's plane, null for a node that stands upright."""
+def _along_bed(tx, ty, tz, nx, ny, nz):
+    """(part of the tangent in the bed's plane (3,), its square, the square's inverse: zero for a node that stands upright)."""
     px, py, pz = _in_plane(tx, ty, tz, nx, ny, nz)
     square = px * px + py * py + pz * pz
-    scale = 1.0 / np.sqrt(max(square, UPRIGHT))
-    scale = scale if square > UPRIGHT else 0.0
-    return px * scale, py * scale, pz * scale
+    inverse = 1.0 / max(square, UPRIGHT)
+    return px, py, pz, square, inverse if square > UPRIGHT else 0.0
 
 
 @stage
@@ -195,25 +210,24 @@ def _saturated(
         vx, vy, vz = _in_plane(u[i], v[i], w[i], nx, ny, nz)
         dx, dy, dz = _in_plane(across * gx + tf * tx, across * gy + tf * ty, across * gz + tf * tz, nx, ny, nz)
         dx, dy, dz = vx + step * dx, vy + step * dy, vz + step * dz
-        ex, ey, ez = _axial_direction(tx, ty, tz, nx, ny, nz)
-        te = tx * ex + ty * ey + tz * ez
+        px, py, pz, square, inverse = _along_bed(tx, ty, tz, nx, ny, nz)
+        inverse *= directional
         give_across = step * across
-        give_axial = give_across + step * surplus * te * te
+        give_axial = give_across + step * surplus * square
         give_across = give_across if directional > 0.0 else max(give_axial, give_across)
-        ex, ey, ez = directional * ex, directional * ey, directional * ez
-        now = vx * ex + vy * ey + vz * ez
-        then = dx * ex + dy * ey + dz * ez
-        vx, vy, vz = vx - now * ex, vy - now * ey, vz - now * ez
-        dx, dy, dz = dx - then * ex, dy - then * ey, dz - then * ez
-        axial, secant_axial = saturated_part(abs(then), abs(now), push, static_axial, kinetic_axial, ramp, give_axial)
-        drift, sliding = np.sqrt(dx * dx + dy * dy + dz * dz), np.sqrt(vx * vx + vy * vy + vz * vz)
-        side, secant_across = saturated_part(drift, sliding, push, static_across, kinetic_across, ramp, give_across)
-        axial *= then
-        fx[i] = gx - axial * ex - side * dx
-        fy[i] = gy - axial * ey - side * dy
-        fz[i] = gz - axial * ez - side * dz
+        now = inverse * (vx * px + vy * py + vz * pz)
+        then = inverse * (dx * px + dy * py + dz * pz)
+        vx, vy, vz = vx - now * px, vy - now * py, vz - now * pz
+        dx, dy, dz = dx - then * px, dy - then * py, dz - then * pz
+        length = np.sqrt(square)
+        axial = saturated_part(abs(then) * length, abs(now) * length, push, static_axial, kinetic_axial, ramp, give_axial)
+        drift, speed = np.sqrt(dx * dx + dy * dy + dz * dz), np.sqrt(vx * vx + vy * vy + vz * vz)
+        side = saturated_part(drift, speed, push, static_across, kinetic_across, ramp, give_across)
+        fx[i] = gx - axial * then * px - side * dx
+        fy[i] = gy - axial * then * py - side * dy
+        fz[i] = gz - axial * then * pz - side * dz
         hold_normal[i] = step * (bed_damping[i] + step * bed_stiffness[i]) if push > 0.0 else 0.0
-        hold_along[i] = step * max(secant_axial, secant_across) if push > 0.0 else 0.0
+        hold_along[i] = step * max(axial, side) if push > 0.0 else 0.0  # of a shared node, which drifts at its speed: the law's secant
 
 
 @stage
@@ -227,12 +241,8 @@ def _sticking(
     level, normal_x, normal_y, normal_z = bed[0, first:stop], bed[1, first:stop], bed[2, first:stop], bed[3, first:stop]
     grip_x, grip_y, grip_z, state = grip[0, first:stop], grip[1, first:stop], grip[2, first:stop], grip[3, first:stop]
     hold_normal, hold_along = hold[0, first:stop], hold[1, first:stop]
-    static_axial, static_across, kinetic_axial, kinetic_across = (
-        ground.static_axial,
-        ground.static_across,
-        ground.kinetic_axial,
-        ground.kinetic_across,
-    )
+    by_static_axial, by_static_across = 1.0 / max(ground.static_axial, SMOOTHEST), 1.0 / max(ground.static_across, SMOOTHEST)
+    by_kinetic_axial, by_kinetic_across = 1.0 / max(ground.kinetic_axial, SMOOTHEST), 1.0 / max(ground.kinetic_across, SMOOTHEST)
     bed_stiffness, bed_damping, slaved = bed_stiffness[first:stop], bed_damping[first:stop], slaved[first:stop]
     inertia_normal, inertia_axial = inertia_normal[first:stop], inertia_axial[first:stop]
     stiffer, denser = ground.stiffness_ratio, ground.damping_ratio
@@ -258,26 +268,24 @@ def _sticking(
             ny,
             nz,
         )
-        ex, ey, ez = _axial_direction(tx, ty, tz, nx, ny, nz)
-        te = tx * ex + ty * ey + tz * ez
-        axial = dx * ex + dy * ey + dz * ez
-        dx, dy, dz = dx - axial * ex, dy - axial * ey, dz - axial * ez
-        limit_axial = push * (kinetic_axial if state[i] > 0.0 else static_axial)
-        limit_across = push * (kinetic_across if state[i] > 0.0 else static_across)
+        px, py, pz, square, inverse = _along_bed(tx, ty, tz, nx, ny, nz)
+        axial = inverse * (dx * px + dy * py + dz * pz)
+        dx, dy, dz = dx - axial * px, dy - axial * py, dz - axial * pz
+        lightly = 1.0 / max(push, LEAST)
+        load_axial = axial * lightly * (by_kinetic_axial if state[i] > 0.0 else by_static_axial)
+        load_across = lightly * (by_kinetic_across if state[i] > 0.0 else by_static_across)
         give = step * resist
-        part, side, share = return_to_ellipse(
-            axial,
-            np.sqrt(dx * dx + dy * dy + dz * dz),
-            limit_axial,
-            limit_across,
-            give * (across + surplus * te * te),
+        part, side = return_to_ellipse(
+            load_axial * load_axial * square,
+            load_across * load_across * (dx * dx + dy * dy + dz * dz),
+            give * (across + surplus * square),
             give * across,
         )
         part *= axial
-        fx[i] = gx - part * ex - side * dx
-        fy[i] = gy - part * ey - side * dy
-        fz[i] = gz - part * ez - side * dz
-        hold_along[i] = share * give if push > 0.0 else 0.0
+        fx[i] = gx - part * px - side * dx
+        fy[i] = gy - part * py - side * dy
+        fz[i] = gz - part * pz - side * dz
+        hold_along[i] = side * give if push > 0.0 else 0.0  # of a shared node, which does not give way: its share
     for i in range(stop - first):  # apart: one array more, and the compiler gives up proving that none overlap
         hold_normal[i] = step * (bed_damping[i] + step * bed_stiffness[i]) if hold_along[i] > 0.0 else 0.0
 
@@ -302,7 +310,9 @@ def commit_grip(ground, size, position, velocity, tangent, bed_stiffness, bed_da
         rx, ry, rz = _in_plane(position[0, i] - grip[0, i], position[1, i] - grip[1, i], position[2, i] - grip[2, i], nx, ny, nz)
         vx, vy, vz = _in_plane(velocity[0, i], velocity[1, i], velocity[2, i], nx, ny, nz)
         t = (tangent[0, i] + tangent[0, i + 1], tangent[1, i] + tangent[1, i + 1], tangent[2, i] + tangent[2, i + 1])
-        ex, ey, ez = _axial_direction(t[0], t[1], t[2], nx, ny, nz)
+        px, py, pz, _, inverse = _along_bed(t[0], t[1], t[2], nx, ny, nz)
+        scale = np.sqrt(inverse)
+        ex, ey, ez = scale * px, scale * py, scale * pz
         spring, damper = ground.stiffness_ratio * bed_stiffness[i], ground.damping_ratio * bed_damping[i]
         static = (max(ground.static_axial * push, LEAST), max(ground.static_across * push, LEAST))
         kinetic = (max(ground.kinetic_axial * push, LEAST), max(ground.kinetic_across * push, LEAST))
@@ -357,7 +367,9 @@ def ground_blocks(ground, size, position, tangent, bed_stiffness, bed, grip, dia
             continue
         e = _in_plane(position[0, i] - grip[0, i], position[1, i] - grip[1, i], position[2, i] - grip[2, i], n[0], n[1], n[2])
         t = (tangent[0, i] + tangent[0, i + 1], tangent[1, i] + tangent[1, i + 1], tangent[2, i] + tangent[2, i + 1])
-        d = _axial_direction(t[0], t[1], t[2], n[0], n[1], n[2])
+        px, py, pz, _, inverse = _along_bed(t[0], t[1], t[2], n[0], n[1], n[2])
+        scale = np.sqrt(inverse)
+        d = (scale * px, scale * py, scale * pz)
         sliding = grip[3, i] > 0.0
         mu_axial = max(ground.kinetic_axial if sliding else ground.static_axial, LEAST)
         mu_across = max(ground.kinetic_across if sliding else ground.static_across, LEAST)

@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.linalg import solve_banded
 
-from mooring_ros.core.bed import bed_under, build_ground
+from mooring_ros.core.bed import bed_at, bed_under, build_ground
 from mooring_ros.core.ground import commit_grip, contact, ground_blocks
 from mooring_ros.scene import Environment
 from mooring_ros.scene.description import Friction
@@ -44,8 +44,8 @@ class Bar:
 
     def sink(self):
         """Put the nodes as deep into the bed as their weight presses them."""
-        bed_under(self.ground, self.n, self.position, self.bed)
         n = self.n
+        self.bed[:, :n] = bed_at(self.ground, self.position[0, :n], self.position[1, :n])
         depth = -self.weight[2] * self.bed[3, :n] / self.bed_stiffness
         self.position[2, :n] = self.bed[0, :n] - depth / self.bed[3, :n]
 

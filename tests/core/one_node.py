@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mooring_ros.core.bed import bed_under
+from mooring_ros.core.bed import bed_at, bed_under
 from mooring_ros.core.ground import contact
 
 STIFFNESS, DAMPING = 2e5, 1e4
@@ -21,7 +21,7 @@ class Nodes:
         self.normal, self.axial = rng.uniform(100.0, 500.0, (2, n))
         self.slaved = np.zeros(n, dtype=bool)
         self.bed, self.hold = np.zeros((4, n + 1)), np.zeros((2, n + 1))
-        bed_under(ground, n, self.position, self.bed)
+        self.bed[:, :n] = bed_at(ground, self.position[0, :n], self.position[1, :n])
         self.position[2, :n] = self.bed[0, :n] + rng.uniform(-deep, 0.5 * deep, n)
         # every second segment is null, so that every node has a direction of its own
         direction = rng.normal(0.0, 1.0, (3, n))

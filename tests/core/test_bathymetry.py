@@ -168,7 +168,10 @@ def test_a_flat_bed_turned_into_a_slope_gives_the_same_forces_turned(law, step):
 
 
 def test_a_bed_under_many_nodes_is_that_under_each():
-    bed, place = np.zeros((4, 7)), np.random.default_rng(9).uniform(-500.0, 500.0, (3, 7))
+    bed, place = np.zeros((4, 200)), np.random.default_rng(9).uniform(-500.0, 500.0, (3, 200))
     ground = grid()
-    bed_under(ground, 7, place, bed)
-    assert np.array_equal(bed, bed_at(ground, place[0], place[1]))
+    bed_under(ground, 200, place, bed)
+    low = place[2] <= -DEPTH.min()
+    assert low.any() and not low.all()
+    assert np.array_equal(bed[:, low], bed_at(ground, place[0], place[1])[:, low])
+    assert (bed[0] < place[2])[~low].all()  # what is above all of the grid needs to know no more
