@@ -6,13 +6,14 @@ Compared are means and standard deviations in time of tension and curvature alon
 
 import time
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
 from mooring_ros.mooring import Mooring
 from mooring_ros.scene import load_scene
 
-from . import cabledyn_peer, figures, moordyn_peer, tables
+from . import figures, tables
 from .moordyn_deck import sea_components
 from .moordyn_history import SCENES
 from .motions import poses_and_twists
@@ -33,6 +34,7 @@ PLACES = {  # unstretched arc length from the converter, m: nodes within a secti
 }
 CURVED = ("sag bend", "hog bend", "falling to the bed", "touchdown")  # places where the curvature is more than a remainder
 GOAL_MEAN, GOAL_DEVIATION = 0.02, 0.05
+FILE = Path(__file__).parent / "data" / "rm3_peers.csv"
 
 
 @dataclass(frozen=True)
@@ -67,6 +69,8 @@ def of_moordyn(scene, motion, step=PEER_STEP):
     """MoorDyn's history."""
     import moordyn
 
+    from . import moordyn_peer
+
     def probe(lines):
         rows = []
         for line in lines:
@@ -82,6 +86,8 @@ def of_moordyn(scene, motion, step=PEER_STEP):
 
 def of_cabledyn(scene, motion, step=CABLEDYN_STEP):
     """CableDyn's history."""
+    from . import cabledyn_peer
+
     (chain,) = cabledyn_peer.chains(scene)
     run = cabledyn_peer.run(scene, chain, motion, step, motion.end)
     arc, inside = sections(scene)
@@ -128,12 +134,34 @@ def statistics(history):
     return {name: (float(values.mean()), float(values.std())) for name, values in rows.items()}
 
 
+def load_peers():
+    """{row name: ((mean, deviation) of MoorDyn, (mean, deviation) of CableDyn)} from the file."""
+    with open(FILE, encoding="utf-8") as file:
+        rows = [line.rstrip("\n").rsplit(",", 4) for line in file if not line.startswith("#")][1:]
+    return {name.strip('"'): ((float(a), float(b)), (float(c), float(d))) for name, a, b, c, d in rows}
+
+
+def write_peers(histories):
+    """Keep the peers' statistics in the file, so that the tests can hold ours against them without the peers."""
+    found = {code: statistics(histories[code]) for code in ("MoorDyn", "CableDyn")}
+    with open(FILE, "w", encoding="utf-8") as file:
+        file.write("# RM3 umbilical in waves, benchmarks/rm3_cable.py: mean and standard deviation in time of tension [N] and curvature [1/m]\n")
+        file.write(f"# MoorDyn 2.7.2, RK2, step {PEER_STEP:g} s; CableDyn 0.3.0, step {CABLEDYN_STEP:g} s\n")
+        file.write("place,MoorDyn mean,MoorDyn deviation,CableDyn mean,CableDyn deviation\n")
+        for name in found["MoorDyn"]:
+            values = (*found["MoorDyn"][name], *found["CableDyn"][name])
+            file.write(",".join([f'"{name}"', *(f"{x:.6g}" for x in values)]) + "\n")
+
+
 def run(quick=False):
     """All three codes; prints the table."""
     scene = load_scene(SCENES / "rm3_cable.txt")
     motion = SeaMotion(*sea_components(scene.environment), **({"ramp": 14.5, "measured": 14.5} if quick else {}))
     histories = {"ours": of_ours(scene, motion), "CableDyn": of_cabledyn(scene, motion), "MoorDyn": of_moordyn(scene, motion)}
-    return report({name: history.after(motion.start) for name, history in histories.items()})
+    histories = {name: history.after(motion.start) for name, history in histories.items()}
+    if not quick:
+        write_peers(histories)
+    return report(histories)
 
 
 def report(histories):
