@@ -13,7 +13,7 @@ from .current import layers
 LOWEST, HIGHEST = 0.4, 5.0  # of the peak frequency: the spectrum's range; beyond lies less than 0.2 % of its energy
 LEFT_OUT = 1e-5  # of the energy of a given elevation: carried by the components that are left out, 0.3 % of its rms
 VELOCITY_ERROR = 1e-3  # of the rms velocity at the surface: what interpolation in time may cost
-REFRESHES = 30.0  # in a mean period, at least: nodes leave the straight path over which their window looks ahead
+REFRESHES = 16.0  # in a mean period, at least: nodes leave the straight way on which their window foresees them
 
 
 class Sea(NamedTuple):

@@ -4,7 +4,8 @@ import numpy as np
 
 from mooring_ros.core.cache import kernel
 from mooring_ros.core.sea import build_sea
-from mooring_ros.core.waves import WINDOW_ROWS, WORK_SIZE, refresh, streams
+from mooring_ros.core.wave_sums import WINDOW_ROWS, WORK_SIZE
+from mooring_ros.core.waves import refresh, streams
 from mooring_ros.scene.description import REGULAR, Environment, Waves
 
 PROFILE = ((-60.0, 0.1, 0.0, 0.0), (-30.0, 0.4, -0.2, 0.01), (-10.0, 0.9, 0.3, 0.0), (0.0, 1.2, 0.3, -0.02))
