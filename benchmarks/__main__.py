@@ -14,6 +14,7 @@ BENCHMARKS = {
     "kernel_cost": "ns for one node and force evaluation, against a bare vector kernel",
     "bergdahl": "the 33 m laboratory chain: 30 measured maxima",
     "rm3_cable": "the RM3 umbilical in waves against MoorDyn and CableDyn: tension and curvature along the cable (a quarter of an hour)",
+    "waves": "the sea: a long realisation, and the water's motion against MoorDyn's",
     "bathymetry": "the VolturnUS-S semi-taut mooring on four beds without friction, against MoorDyn and CableDyn",
     "friction": "bed friction along and across a chain and in waves: both laws, closed form, CableDyn",
     "iswec": "load and excursion of the two ISWEC moorings, against MoorPy",

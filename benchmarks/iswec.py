@@ -88,6 +88,5 @@ def picture(curves):
         axis.plot(codes["excursions"], codes["ours"] / 1e3, label="ours", **figures.STYLES["ours"])
         axis.set_title(name, loc="left", fontsize=10)
         axis.set(xlabel="excursion along x (m)", ylabel="load cell (kN)")
-        axis.set_yscale("log")
     figures.legend(figure, grid[0, 0])
     return figure

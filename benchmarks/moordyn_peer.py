@@ -63,7 +63,7 @@ def run(scene, motion, dt, scheme="RK2", segments=None, damping=None, steps_per_
     calls = int(np.ceil(end / call - 1e-9))
     every = max(1, round(sample / call))
 
-    with tempfile.TemporaryDirectory(prefix="moordyn_") as folder, _silence():
+    with tempfile.TemporaryDirectory(prefix="moordyn_") as folder, silence():
         try:
             texts = {"lines.txt": deck(scene, dt, scheme, segments, damping, options, friction, folder), **files(scene)}
             drive = _Drive(scene, motion, call, calls)
@@ -139,7 +139,7 @@ def _advance(system, lines, drive, dt, scheme, every, probe):
     return PeerRun(np.array(times), tensions, cpu, simulated, round(simulated / dt), np.array(probed))
 
 
-class _silence:
+class silence:
     """Keep what MoorDyn's library writes to the console (it does so below Python) out of our tables."""
 
     def __enter__(self):
