@@ -2,6 +2,7 @@
 
 The platform is moved by regular waves of 9.3 m and 14.9 s at 90 degrees: sway and heave a quarter period apart, the same on all beds.
 MoorDyn (C++) pushes lines on a slope straight up; ours and CableDyn push along the bed's normal, as the paper and MoorDyn's Fortran version do.
+In the plane of the slope that makes no difference without friction: the chain is held at the same place. Across it the chain slides downhill, or not.
 """
 
 from dataclasses import replace
@@ -22,7 +23,8 @@ MOTION = SurgeHeave(surge=3.5, heave=3.7, period=14.9, ramp_periods=2.0, measure
 PEER_STEP = 2e-3  # s: a third of the step at which it blows up
 CABLEDYN_STEP = 0.05  # s
 SAMPLE = 0.1  # s
-GOAL = 0.01  # of the mean tension
+GOAL = 0.01  # of the mean tension, against MoorDyn where its law is the same, else against CableDyn
+SAME_LAW = {"flat": (0, 1, 2), "upslope": (0,), "downslope": (0,), "sideslope": ()}  # lines that lie in the plane of the slope
 
 
 def fairleads(scene):
@@ -77,8 +79,9 @@ def report(times, found):
             swing = {code: deviation["ours"][k] / deviation[code][k] - 1.0 for code in ("MoorDyn", "CableDyn")}
             rows.append([f"{bed}, line {k + 1}", f"{mean['ours'][k] / 1e3:.1f}", f"{deviation['ours'][k] / 1e3:.1f}"])
             rows[-1] += [f"{100 * x:+.2f} %" for code in ("MoorDyn", "CableDyn") for x in (change[code], swing[code])]
-            if abs(change["MoorDyn"]) > GOAL:
-                failed.append(f"{bed}, line {k + 1}: mean tension {100 * change['MoorDyn']:+.2f} % of MoorDyn's, goal {100 * GOAL:.0f} %")
+            peer = "MoorDyn" if k in SAME_LAW[bed] else "CableDyn"
+            if abs(change[peer]) > GOAL:
+                failed.append(f"{bed}, line {k + 1}: mean tension {100 * change[peer]:+.2f} % of {peer}'s, goal {100 * GOAL:.0f} %")
     header = ["", "mean, kN", "deviation, kN", "mean against MoorDyn", "deviation", "mean against CableDyn", "deviation"]
     content = {"bathymetry_tension": tables.table(header, rows)}
     print(content["bathymetry_tension"], flush=True)
