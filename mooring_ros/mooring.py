@@ -8,7 +8,10 @@ import numpy as np
 
 from .arguments import checked_poses, checked_twists, numbers, shaped
 from .core import explicit
+from .core.bending_readings import curvature as curvature_of_nodes
+from .core.failures import build_failures
 from .core.forces import evaluate_once
+from .core.ground import NO_CONTACT
 from .core.guard import FASTEST
 from .core.layout import Layout
 from .core.linear import LinearResponse, linearise
@@ -16,10 +19,12 @@ from .core.model import LOOSE, State, build, new_scratch, new_state
 from .core.readings import new_readings, observe
 from .core.schemes import step_table
 from .core.stability import step_limit
+from .core.platform import rotate
 from .core.statics import StaticSolver
+from .core.waves import waken
 from .errors import MooringError
 from .history import History
-from .scene import Scene, load_scene
+from .scene import COUPLED, Scene, load_scene
 
 FIDELITIES = ("dynamic", "quasi_static", "linear")
 SOLVERS = ("auto", "explicit")
@@ -71,7 +76,7 @@ class Mooring:
         self._scratch = new_scratch(self._model)
         self._statics = StaticSolver(self.scene, self._model)
         self._readings = new_readings(self._model, 1)
-        self.step_limit = step_limit(self.scene, self._model, dt)
+        self.step_limit = step_limit(self.scene, self._model, ends, dt)
         self._table = step_table(self.step_limit.axial, self.step_limit.dt)
         self.warnings = self.scene.warnings
         if dt is not None and dt > self.step_limit.dt:
@@ -82,6 +87,8 @@ class Mooring:
         self._linear = None
         self.line_names = [line.name for line in self.scene.lines]
         self.segments = [int(count) for count in self._model.segments]  # of each line
+        self._rods = {rod.name: self._model.point_node[[layout.rods[rod.id].points[0], layout.rods[rod.id].points[-1]]] for rod in self.scene.rods}
+        self._body_parts = layout.body_parts
         self.coupled_names = layout.outputs  # coupled points, rods and bodies
         self.static_result = None
 
@@ -97,6 +104,7 @@ class Mooring:
         state.clock[0] = time
         strain = (state.tension / np.maximum(self._model.stiffness, 1e-300)).max()
         state.settings[5] = max(MOST_STRAIN, 2.0 * strain)
+        waken(state.window_times)
         _assign(self._state, state)
         self.static_result = result
         self._settled = True
@@ -153,6 +161,7 @@ class Mooring:
         if self._state.end_point[end] == LOOSE:
             raise ValueError(f"{line_name} has been let go already")
         self._state.end_point[end] = LOOSE
+        self._state.slaved[self._model.end_node[end]] = False
         if self.fidelity == "linear" and self._settled:
             self._linear = self._linearised(self._linear.pose)
             self._linear.show(self._state, self.pose, self.twist, 0, self._readings)
@@ -247,12 +256,31 @@ class Mooring:
         return tension
 
     def node_curvature(self, line_name):
-        """(N + 1,) 1/m: 2/l sin of half the angle between the neighbouring segments; zero at the (pinned) ends."""
-        nodes = self._nodes(line_name)
-        tangents = self._state.tangent[:, nodes.start + 1 : nodes.stop]
-        curvature = np.zeros(tangents.shape[1] + 1)
-        curvature[1:-1] = np.linalg.norm(np.diff(tangents, axis=1), axis=0) * self._model.inverse_length[nodes.start + 1]
-        return curvature
+        """(N + 1,) 1/m from end A to end B: the angle between the neighbouring segments over the length that it belongs to; zero at pinned ends."""
+        nodes, state = self._nodes(line_name), self._state
+        curvature = np.zeros(state.tension.size)
+        curvature_of_nodes(self._model.bending, self._model.size, state.tangent, state.end_point, state.clamp_axis, curvature)
+        return curvature[nodes]
+
+    def rod_positions(self, rod_name):
+        """(2, 3) m: where ends A and B of a rod are."""
+        self._need_settled()
+        if rod_name not in self._rods:
+            raise ValueError(f"there is no rod {rod_name!r}; expected one of {', '.join(self._rods)}")
+        return self._state.position[:, self._rods[rod_name]].T.copy()
+
+    @property
+    def body_poses(self):
+        """Poses (7,) of the bodies by name: x, y, z (m) and quaternion x, y, z, w."""
+        self._need_settled()
+        return {body.name: self._body_pose(body) for body in self.scene.bodies}
+
+    def _body_pose(self, body):
+        part = self._body_parts.get(body.id)
+        if part is not None:
+            return self._state.parts[part, :7].copy()
+        own = np.array([*body.position, *body.orientation], dtype=float)
+        return own if body.kind != COUPLED else np.concatenate(composed(self.pose, own))
 
     def stiffness(self):
         """(6, 6) -d wrench / d pose of the static mooring at the present pose, N/m, N, N m; rotations about the world axes."""
@@ -275,6 +303,9 @@ class Mooring:
         """
         state = _copy(self._state)
         self._statics.place(state, pose, first_guess=not warm)
+        remembers = state.grip.size > 0
+        if remembers and not warm:
+            state.grip[3] = NO_CONTACT
         result = self._statics.solve(state, self._scratch)
         if warm and not result.converged:
             return self._static_state(pose)
@@ -287,7 +318,16 @@ class Mooring:
                 best, best_state = result, _copy(state)
         if not best.converged and best.residual <= self._statics.acceptable:
             best = replace(best, tolerance=self._statics.acceptable, converged=True)
+        if best.converged and remembers and not warm:
+            state = _copy(best_state)
+            self._statics.lay_down(state)
+            laid = self._statics.solve(state, self._scratch)
+            best, best_state = replace(laid, iterations=laid.iterations + best.iterations), state
+            if best.residual <= self._statics.acceptable:
+                best = replace(best, converged=True)
         if best.converged:
+            if remembers:
+                self._statics.hold_on(best_state)
             return best_state, best
         raise MooringError(
             f"the statics did not converge in {best.iterations} iterations: "
@@ -298,10 +338,11 @@ class Mooring:
         """Let the lines move for a while with the platform held; False when that runs away."""
         state.clock[0] = 0.0
         state.velocity[:] = 0.0
-        evaluate_once(self._model, state, self._scratch, 0.0, 0.0, True)
+        whole = self._model._replace(failures=build_failures([]))
+        evaluate_once(whole, state, self._scratch, 0.0, 0.0, True)
         samples = np.arange(1, 11) * (0.1 * SWING_TIME)
         status, _ = explicit.run(
-            self._model, state, self._scratch, self._table, samples, np.tile(state.pose, (10, 1)), np.zeros((10, 6)), np.zeros(4),
+            whole, state, self._scratch, self._table, samples, np.tile(state.pose, (10, 1)), np.zeros((10, 6)), np.zeros(4),
             new_readings(self._model, 10),
         )
         state.velocity[:] = 0.0
@@ -378,6 +419,13 @@ class Mooring:
         line = self._line(line_name)
         first = int(self._model.first_node[line])
         return slice(first, first + int(self._model.segments[line]) + 1)
+
+
+def composed(pose, own):
+    """Place (3,) and quaternion (4,) of what has the pose `own` (7,) in the axes of `pose` (7,)."""
+    a, b, w, v = pose[3:6], own[3:6], pose[6], own[6]
+    turn = np.append(w * b + v * a + np.cross(a, b), w * v - a @ b)
+    return pose[:3] + np.array(rotate(pose[3:], own[:3])), turn
 
 
 def _rows(readings, rows):

@@ -4,7 +4,8 @@ import numpy as np
 
 from .cache import kernel, stage
 from .failures import part
-from .forces import evaluate, evaluate_once
+from .forces import evaluate, evaluate_once, stream_past
+from .ground import commit_grip
 from .guard import EVEN, FASTEST, IMPLAUSIBLE, TORN, UNEVEN, copy_row, keep_tension, overstretched, recall, runaway, save, speed_of_ends, tension_jumped
 from .platform import start_motion
 from .points import place_coupled_points, place_staggered_coupled_points, speed_coupled_points
@@ -13,6 +14,7 @@ from .rigid import copy_parts, euler_parts, mix_parts
 from .schemes import LEAPFROG
 from .seabed import set_bed_relief
 from .surface import all_wet, reaches_above
+from .waves import copy_window, refresh
 
 DONE, RUNAWAY, TOO_FAST, TOO_LONG, OVERSTRETCHED = 0, 1, 2, 3, 4  # status codes
 
@@ -46,7 +48,7 @@ def adapt(model, state, euler_step):
     """Set what the evaluations depend on from the Euler step (s) of which the scheme is made."""
     state.settings[0] = euler_step / DRAG_SAFETY
     state.settings[1] = euler_step
-    set_bed_relief(model, state, euler_step)
+    set_bed_relief(model, state, 0.0 if model.ground.on else euler_step)  # ground.py takes the contact implicitly by itself
 
 
 @stage
@@ -122,16 +124,25 @@ def leapfrog_stage(model, state, h):
 
 
 @stage
-def set_time(state, scratch, s):
-    """Tell the evaluations that they stand at s in 0..1 of the interval."""
-    state.settings[6] = state.clock[0] + s * scratch.motion[7, 0]
+def remember_grip(model, state, scratch):
+    commit_grip(
+        model.ground,
+        model.size,
+        state.position,
+        state.velocity,
+        state.tangent,
+        model.bed_stiffness,
+        model.bed_damping,
+        scratch.bed,
+        state.grip,
+    )
 
 
 @kernel
-def let_go(model, state, scratch):
-    """Let lines part that are due."""
+def let_go(model, state, scratch, time):
+    """Let lines part that are due at `time` (s)."""
     parted = part(
-        model.failures, state.settings[6], state.tension, state.end_point, model.end_node, state.position, state.velocity, model.point_node, state.failed
+        model.failures, time, state.tension, state.end_point, model.end_node, state.position, state.velocity, model.point_node, state.failed
     )
     if parted > 0:
         evaluate_again(model, state, scratch)
@@ -150,25 +161,27 @@ def take_steps(model, state, scratch, evaluations, h, steps, start, ds):
             start_step(model, state, scratch)
         end = start + (j + 1) * ds
         for k in range(evaluations):
-            now = end
             if evaluations == LEAPFROG:
                 keep_tension(model, state, scratch)
                 leapfrog_stage(model, state, h)
                 place_staggered_coupled_points(model, state, scratch.motion, end, h)
             elif k < evaluations - 1:
                 part = 1.0 / (evaluations - 1)
-                now = end - ds * (evaluations - 2 - k) * part
                 euler_stage(model, state, h * part)
-                speed_coupled_points(model, state, scratch.motion, now, h * part)
+                speed_coupled_points(model, state, scratch.motion, end - ds * (evaluations - 2 - k) * part, h * part)
             else:
                 keep_tension(model, state, scratch)
                 last_stage(model, state, scratch, h / (evaluations - 1), evaluations)
                 place_coupled_points(model, state, scratch.motion, end)
-            set_time(state, scratch, now)
+            if k == evaluations - 1:
+                state.settings[6] = state.clock[0] + end * scratch.motion[7, 0] + 0.5 * h  # the middle of the next step, which begins with this evaluation
+                stream_past(model, state, state.settings[6])
             evaluate(model, state, scratch, state.settings[0], state.settings[1], state.settings[2] != 0.0)
         worst = max(worst, tension_jumped(model, state, scratch, JUMP))
+        if state.grip.shape[1] > 0:
+            remember_grip(model, state, scratch)
         if model.failures.point.size > 0:
-            let_go(model, state, scratch)
+            let_go(model, state, scratch, state.clock[0] + end * scratch.motion[7, 0])
     return worst
 
 
@@ -190,7 +203,7 @@ def advance(model, state, scratch, table, time, pose, twist, report):
     for row in range(table.shape[0]):
         largest, smallest = max(largest, table[row, 1]), min(smallest, table[row, 1])
     settings = state.settings
-    previous = (settings[0], settings[1], settings[2], settings[3], settings[4])
+    previous = (settings[0], settings[1], settings[2], settings[3], settings[4], settings[6])
     if not duration <= MOST_STEPS * largest:
         return TOO_LONG
     a = state.acceleration_of_platform
@@ -198,7 +211,8 @@ def advance(model, state, scratch, table, time, pose, twist, report):
     share = min(duration / smallest, 1.0)  # samples closer than a step share one mean: their differences are noise
     for i in range(6):
         a[i] += share * ((twist[i] - state.twist[i]) / duration - a[i])
-    chunks = int(np.ceil(duration / (CHUNK * largest)))
+    chunks = int(np.ceil(duration / min(CHUNK * largest, model.sea.refresh)))
+    copy_window(state.window_times, state.window, scratch.saved_window_times, scratch.saved_window)
     span = duration / chunks
     evaluations_taken, steps_taken, retries, shortest = 0.0, 0, 0, duration
     for chunk in range(chunks):
@@ -206,13 +220,16 @@ def advance(model, state, scratch, table, time, pose, twist, report):
         source = min(chunk, 1)
         save(model, state, scratch, source)
         refined, again = settings[3], False
+        if model.sea.frequency.size > 0:
+            now = state.clock[0] + start * duration
+            refresh(model.sea, now, now + span, model.size, state.position, state.velocity, scratch.wave_work, state.window_times, state.window)
         while True:
             row, steps = choose_step(table, span, refined)
             h = span / steps
             adapt(model, state, h / table[row, 2])
             look_at_surface(model, state, SURFACE_MARGIN + span * max(LIKELY_SPEED, ends))
             if again:
-                set_time(state, scratch, start)
+                settings[6] = state.clock[0] + start * duration + 0.5 * h
                 evaluate_again(model, state, scratch)
             tensions = take_steps(model, state, scratch, int(table[row, 0]), h, steps, start, 1.0 / (steps * chunks))
             evaluations_taken += steps * table[row, 0]
@@ -226,13 +243,13 @@ def advance(model, state, scratch, table, time, pose, twist, report):
         torn = overstretched(model, state, settings[5])
         if wild or torn:
             recall(model, state, scratch, 0)
-            set_time(state, scratch, 0.0)
             for i in range(6):
                 state.acceleration_of_platform[i] = mean_before[i]
-            settings[0], settings[1], settings[2], settings[3], settings[4] = previous
-            set_bed_relief(model, state, settings[1])
+            settings[0], settings[1], settings[2], settings[3], settings[4], settings[6] = previous
+            set_bed_relief(model, state, 0.0 if model.ground.on else settings[1])
             if settings[2] == 0.0:
                 all_wet(model, state)
+            copy_window(scratch.saved_window_times, scratch.saved_window, state.window_times, state.window)
             evaluate_again(model, state, scratch)
             return RUNAWAY if wild else OVERSTRETCHED
         steps_taken += steps

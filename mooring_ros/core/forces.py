@@ -1,6 +1,9 @@
 """One evaluation of the equations of motion: the stages in their order. What a scene does not contain is skipped."""
 
+from .bending import bend
 from .cache import kernel, stage
+from .clamps import turn_clamps_with_parts
+from .ground import bed_under, contact
 from .inertia import accelerations
 from .points import carry_ends, gather, hold_prescribed, move_free_points
 from .rigid import carry_parts, move_parts
@@ -8,7 +11,53 @@ from .ropes import SETTLED, rope_tensions
 from .seabed import bed_contact
 from .surface import wet_shares
 from .tension import pull_on_nodes, segment_tensions
-from .water import water_loads
+from .water import add_swell_loads, water_loads
+from .waves import streams
+
+
+@stage
+def stretch_ropes(model, state, step):
+    rope_tensions(
+        model.ropes, step, state.position, model.inverse_length, model.damping, state.strain_rate, state.tension, state.creep, state.creep_rate
+    )
+
+
+@stage
+def bend_lines(model, state, scratch):
+    bend(
+        model.bending,
+        model.size,
+        state.position,
+        state.tangent,
+        model.length,
+        state.end_point,
+        state.clamp_axis,
+        scratch.bending,
+        state.force,
+        state.clamp_moment,
+    )
+
+
+@stage
+def touch_ground(model, state, scratch, step):
+    bed_under(model.ground, model.size, state.position, scratch.bed)
+    contact(
+        model.ground,
+        model.size,
+        step,
+        state.position,
+        state.velocity,
+        state.tangent,
+        model.bed_stiffness,
+        model.bed_damping,
+        state.inertia_normal,
+        state.inertia_axial,
+        state.slaved,
+        scratch.bed,
+        state.grip,
+        state.force,
+        scratch.hold,
+    )
 
 
 @stage
@@ -19,28 +68,40 @@ def evaluate(model, state, scratch, drag_time, bed_step, surfaced):
     """
     if model.rigid.mass.size > 0:
         carry_parts(model, state)
+        turn_clamps_with_parts(model, state)
     carry_ends(model, state)
     segment_tensions(model, state)
     if model.ropes.curve_first.size + model.ropes.kelvin_first.size > 0:
-        rope_step = SETTLED if state.settings[7] != 0.0 else bed_step
-        rope_tensions(
-            model.ropes, rope_step, state.position, model.inverse_length, model.damping, state.strain_rate, state.tension, state.creep, state.creep_rate
-        )
+        stretch_ropes(model, state, SETTLED if state.settings[7] != 0.0 else bed_step)
     pull_on_nodes(model, state)
+    if model.bending.stiffness.size > 0:
+        bend_lines(model, state, scratch)
     if surfaced:
         wet_shares(model, state, scratch)
     water_loads(model, state, drag_time)
-    bed_contact(model, state, bed_step)
+    if state.swell.shape[1] > 0:
+        add_swell_loads(model, model.sea.gravity, state)
+    if model.ground.on:
+        touch_ground(model, state, scratch, bed_step)
+    else:
+        bed_contact(model, state, bed_step)
     accelerations(model, state)
     if model.free_points.size + model.rigid.mass.size > 0:
-        gather(model, state, scratch.load)
+        gather(model, state, scratch)
         move_free_points(model, state, scratch.load)
     if model.rigid.mass.size > 0:
         move_parts(model, state, scratch)
     hold_prescribed(model, state)
 
 
+@stage
+def stream_past(model, state, time):
+    """The water at the nodes at `time` (s)."""
+    streams(model.sea, time, model.size, state.position, state.window_times, state.window, state.stream, state.swell)
+
+
 @kernel
 def evaluate_once(model, state, scratch, drag_time, bed_step, surfaced):
-    """`evaluate`, compiled once for all callers outside the stepping loop."""
+    """`evaluate` with the water of state.settings, compiled once for all callers outside the stepping loop."""
+    stream_past(model, state, state.settings[6])
     evaluate(model, state, scratch, drag_time, bed_step, surfaced)

@@ -100,9 +100,18 @@ class Freedom:
             total[at : at + 3, at : at + 3] += -skew(force[:, node]) @ skew(arm)
         return total.tocsr()
 
-    def forces(self, follow, force):
-        """(count,) forces on the unknowns from those on the nodes, (3, n); none on what does not move."""
+    def turn_of(self, clamps, c):
+        """First of the three unknowns that turn clamp c, or None for one that the ground holds."""
+        if clamps.part[c] >= 0:
+            return self.own + 6 * clamps.part[c] + 3
+        return self.count + 3 if clamps.riding[c] else None
+
+    def forces(self, follow, state, force):
+        """(count,) forces on the unknowns from those on the nodes, (3, n), and from the clamps; none on what does not move."""
         load = (follow.T @ force.T.ravel())[: self.count]
+        for c in np.flatnonzero(self.model.clamps.part >= 0):
+            at = self.turn_of(self.model.clamps, c)
+            load[at : at + 3] += state.clamp_moment[c]
         load[~self.kept] = 0.0
         return load
 
@@ -133,3 +142,11 @@ def _turned(turn, q):
     w = np.cos(0.5 * angle)
     turned = np.append(w * q[:3] + q[3] * v + np.cross(v, q[:3]), w * q[3] - v @ q[:3])
     return turned / np.linalg.norm(turned)
+
+
+def block_matrix(rows, columns, blocks, shape):
+    """Sparse matrix of 3 x 3 blocks (b, 3, 3) at the nodes `rows` and `columns` (b,); blocks of the same place add up."""
+    three = np.arange(3)
+    at = np.broadcast_to(3 * rows[:, None, None] + three[:, None], blocks.shape)
+    over = np.broadcast_to(3 * columns[:, None, None] + three, blocks.shape)
+    return sparse.csr_matrix((blocks.ravel(), (at.ravel(), over.ravel())), shape=shape)

@@ -50,6 +50,13 @@ def copy_row(source, target):
         target[i] = source[i]
 
 
+@stage
+def copy_rows(source, target):
+    for k in range(source.shape[0]):
+        for i in range(source.shape[1]):
+            target[k, i] = source[k, i]
+
+
 @kernel
 def save(model, state, scratch, place):
     """Keep what moves, in the first (0) or second (1) place."""
@@ -60,6 +67,7 @@ def save(model, state, scratch, place):
             copy[3 + k, i] = state.velocity[k, i]
     copy_parts(state.parts, scratch.saved_parts[place])
     copy_row(state.creep, scratch.saved_creep[place])
+    copy_rows(state.grip, scratch.saved_grip[place])
     copy_row(state.end_point, scratch.saved_ends[place])
     copy_row(state.failed, scratch.saved_failed[place])
 
@@ -73,6 +81,7 @@ def recall(model, state, scratch, place):
             state.velocity[k, i] = copy[3 + k, i]
     copy_parts(scratch.saved_parts[place], state.parts)
     copy_row(scratch.saved_creep[place], state.creep)
+    copy_rows(scratch.saved_grip[place], state.grip)
     copy_row(scratch.saved_ends[place], state.end_point)
     copy_row(scratch.saved_failed[place], state.failed)
 

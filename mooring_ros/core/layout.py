@@ -75,17 +75,18 @@ class RodNodes:
 class Layout:
     """Internal points, parts, rods and outputs of a scene.
 
-    points, parts: lists of Place and Part. rods: dict of rod id -> RodNodes. outputs: names of the coupled points, rods and bodies.
+    points, parts: lists of Place and Part. rods: dict of rod id -> RodNodes. body_parts: dict of body id -> part of the free ones.
+    outputs: names of the coupled points, rods and bodies.
     """
 
     def __init__(self, scene):
         self.points, self.parts, self.rods, self.outputs = [], [], {}, []
         self.output_point, self.output_inertia = [], []  # internal point and (3, 3) inertia of each output
         self._bodies = {body.id: body for body in scene.bodies}
-        self._body_part = {}
+        self.body_parts = {}
         for body in scene.bodies:
             if body.kind == FREE:
-                self._body_part[body.id] = len(self.parts)
+                self.body_parts[body.id] = len(self.parts)
                 self.parts.append(Part(np.array(body.position), np.array(body.orientation)))
         for point in scene.points:
             self._add_scene_point(point)
@@ -133,7 +134,7 @@ class Layout:
             return _KINDS[kind], position, NO_PART
         body = self._bodies[body_id]
         if body.kind == FREE:
-            return POINT_RIDING, position, self._body_part[body_id]
+            return POINT_RIDING, position, self.body_parts[body_id]
         return _KINDS[body.kind], np.array(body.position) + turned(body.orientation, position), NO_PART
 
     def _output(self, name, point, inertia=None):
@@ -213,7 +214,7 @@ class Layout:
         first = len(self.points)
         weight, volume = Place(*gravity, weight=body.mass), Place(*origin, volume=body.volume)
         if body.kind == FREE:
-            part = self.parts[self._body_part[body.id]]
+            part = self.parts[self.body_parts[body.id]]
             part.add(body.mass, np.array(body.centre_of_gravity, dtype=float), inertia)
             part.hull, part.hull_drag = first + 1, body.drag_area
             part.hull_added = tuple(ca * body.volume for ca in body.added_mass)

@@ -13,9 +13,15 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .clamps import Clamps, build_clamps
 from .failures import Failures, build_failures, failure_rows
+from .ground import NO_CONTACT, Ground, build_ground
+from .hinges import Bending, build_bending
 from .layout import POINT_COUPLED, POINT_FREE, POINT_RIDING, Layout
 from .ropes import Ropes, build_ropes, rope_damping
+from .friction import STICK
+from .sea import Sea, build_sea, fastest_water
+from .waves import WINDOW_ROWS, WORK_SIZE
 
 LANES = 8  # nodes: a whole number of vectors
 LOOSE = -1  # an end that nothing holds any more
@@ -63,7 +69,6 @@ class Model(NamedTuple):
     bed_damping: np.ndarray  # cBot d l, N s/m
     # environment
     bed_level: float  # z of the bed, m
-    current: np.ndarray  # (3,), m/s
     natural_speed: float  # m/s that a sound mooring hardly passes while its ends stand still
     reach: float  # m from the platform's reference point to the farthest coupled point
     # ends, (E,)
@@ -86,6 +91,10 @@ class Model(NamedTuple):
     rigid: Rigid
     ropes: Ropes
     failures: Failures
+    bending: Bending
+    clamps: Clamps
+    ground: Ground
+    sea: Sea
 
 
 class State(NamedTuple):
@@ -108,11 +117,17 @@ class State(NamedTuple):
     creep: np.ndarray  # (n,), strain of the slow elements of viscoelastic ropes; (0,) without any
     creep_rate: np.ndarray  # (n,), 1/s
     stream: np.ndarray  # (3, n), m/s: velocity of the water at the nodes
-    swell: np.ndarray  # (4, n): its acceleration (m/s^2) and the surface's elevation (m); (4, 0) without waves
+    swell: np.ndarray  # (4, n): its acceleration in waves (m/s^2) and their elevation (m); (4, 0) without waves
     wet: np.ndarray  # (n,), wet share of the nodes, 0..1
     inertia_normal: np.ndarray  # (n,), kg
     inertia_axial: np.ndarray  # (n,), kg
     bed_relief: np.ndarray  # (n,): factor on the vertical acceleration of a node in contact, 0..1
+    clamp_axis: np.ndarray  # (C, 3), unit vectors from the clamps into their lines
+    clamp_moment: np.ndarray  # (C, 3), N m on what holds the clamp
+    grip: np.ndarray  # (4, n): what the friction law `stick` remembers (ground.py); (4, 0) without it
+    window: np.ndarray  # (2, rows, n): the waves at the nodes at two times (waves.py); (2, rows, 0) without any
+    window_times: np.ndarray  # (2,), s
+    slaved: np.ndarray  # (n,): whether the node shares its motion with others
     end_point: np.ndarray  # (E,) index of the point that holds the end, or LOOSE
     failed: np.ndarray  # (F,) 1 for a failure that has happened
     settings: np.ndarray  # (8,) drag time (s), Euler step of stiff local laws (s), 1 if wet shares are computed; refinement of the step, kept until (s); largest strain; time of the evaluation (s), 1 in the statics
@@ -133,6 +148,13 @@ class Scratch(NamedTuple):
     saved_creep: np.ndarray
     saved_ends: np.ndarray  # (2, E)
     saved_failed: np.ndarray  # (2, F)
+    saved_grip: np.ndarray  # (2, 4, n) or (2, 4, 0)
+    saved_window: np.ndarray  # (2, rows, n): of the interval's start
+    saved_window_times: np.ndarray  # (2,)
+    bending: np.ndarray  # (5, n): work of bending.py
+    bed: np.ndarray  # (4, n): level of the bed under the nodes (m) and its unit normal
+    hold: np.ndarray  # (2, n), kg: inertia that stands for the bed's contact, along its normal and in its plane
+    wave_work: np.ndarray  # (WORK_SIZE,): waves.refresh
     load: np.ndarray  # (P, 9): force (N) and inertia xx, yy, zz, xy, xz, yz (kg) of what moves with each point
     matrix: np.ndarray  # (6, 7): equations of motion of a part
 
@@ -186,7 +208,6 @@ def build(scene, segments=None, layout=None):
         size=size,
         **rows,
         bed_level=-float(env.depth),
-        current=np.array(env.current, dtype=float),
         natural_speed=natural_speed(scene),
         reach=max(np.linalg.norm(places[coupled], axis=1), default=0.0),
         end_node=np.array(end_node, dtype=np.int64),
@@ -205,6 +226,10 @@ def build(scene, segments=None, layout=None):
         rigid=_rigid(layout, kinds, env),
         ropes=build_ropes([(line.type, start, count, line.length / count) for line, start, count in zip(scene.lines, first_node, counts)]),
         failures=_failures(scene, layout),
+        bending=_bending(scene, layout, first_node, counts, n),
+        clamps=build_clamps(layout.clamps(scene), kinds),
+        ground=build_ground(env),
+        sea=build_sea(env),
     )
     return model, np.array(end_point, dtype=np.int64)
 
@@ -230,17 +255,24 @@ def _rigid(layout, kinds, env):
     )
 
 
+def _bending(scene, layout, first_node, counts, n):
+    lines = [
+        (first, count, line.length / count, line.type.bending_stiffness) for line, first, count in zip(scene.lines, first_node, counts)
+    ]
+    return build_bending(lines, [(end, point) for end, point, *_ in layout.clamps(scene)], layout.joints(scene), n, scene.bending)
+
+
 def _failures(scene, layout):
     holders = {failure.holder: layout.holder(failure.holder) for failure in scene.failures}
     return build_failures(failure_rows(scene.failures, scene.lines, holders, layout.failure_points.start))
 
 
 def natural_speed(scene):
-    """Free fall through the mooring's height, the current, and 5 % of strain let loose, m/s."""
+    """Free fall through the mooring's height, current and waves, and 5 % of strain let loose, m/s."""
     env = scene.environment
     fall = np.sqrt(2.0 * env.gravity * (env.depth + max(line.length for line in scene.lines)))
     recoil = 0.05 * max(np.sqrt(line.type.stiffness / line.type.mass) for line in scene.lines)
-    return float(fall + np.linalg.norm(env.current) + recoil)
+    return float(fall + fastest_water(env) + recoil)
 
 
 def _place_line(rows, line, start, count, env):
@@ -324,14 +356,23 @@ def _place_point(rows, place, node, env):
     return diameter
 
 
+def _sizes(model):
+    """Nodes of which the state holds slow strains, grips and waves: all or none."""
+    n = model.mass.size
+    needed = (model.ropes.kelvin_first.size, model.ground.law == STICK, model.sea.frequency.size)
+    return tuple(n if need else 0 for need in needed)
+
+
 def new_state(model, end_point):
     """State at rest, everything at the origin; `statics.settle` places it."""
-    n, parts = model.mass.size, model.rigid.mass.size
-    creeping = n if model.ropes.kelvin_first.size else 0
+    n, parts, clamps = model.mass.size, model.rigid.mass.size, model.clamps.part.size
+    creeping, gripping, waving = _sizes(model)
+    slaved = np.zeros(n, dtype=bool)
+    slaved[model.end_node] = slaved[model.point_node] = True
     position = np.zeros((3, n))
     position[2] = 2.0 * model.bed_level - 100.0  # dummies stay where they are, far below the surface
     stream = np.zeros((3, n))
-    stream[:] = model.current[:, None]
+    stream[:] = model.sea.current[:, None]
     return State(
         clock=np.zeros(1),
         pose=np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]),
@@ -350,11 +391,17 @@ def new_state(model, end_point):
         creep=np.zeros(creeping),
         creep_rate=np.zeros(creeping),
         stream=stream,
-        swell=np.zeros((4, 0)),
+        swell=np.zeros((4, waving)),
         wet=np.ones(n),
         inertia_normal=np.zeros(n),
         inertia_axial=np.zeros(n),
         bed_relief=np.ones(n),
+        clamp_axis=model.clamps.axis.copy(),
+        clamp_moment=np.zeros((clamps, 3)),
+        grip=np.full((4, gripping), NO_CONTACT),
+        window=np.zeros((2, WINDOW_ROWS, waving)),
+        window_times=np.array([0.0, -1.0]),
+        slaved=slaved,
         end_point=end_point.copy(),
         failed=np.zeros(model.failures.point.size, dtype=np.int64),
         settings=np.array([0.0, 0.0, 0.0, 1.0, 0.0, np.inf, 0.0, 0.0]),
@@ -363,7 +410,7 @@ def new_state(model, end_point):
 
 def new_scratch(model):
     n, parts = model.mass.size, model.rigid.mass.size
-    creeping = n if model.ropes.kelvin_first.size else 0
+    creeping, gripping, waving = _sizes(model)
     return Scratch(
         position=np.zeros((3, n)),
         velocity=np.zeros((3, n)),
@@ -377,6 +424,13 @@ def new_scratch(model):
         saved_creep=np.zeros((2, creeping)),
         saved_ends=np.zeros((2, model.end_node.size), dtype=np.int64),
         saved_failed=np.zeros((2, model.failures.point.size), dtype=np.int64),
+        saved_grip=np.zeros((2, 4, gripping)),
+        saved_window=np.zeros((2, WINDOW_ROWS, waving)),
+        saved_window_times=np.zeros(2),
+        bending=np.zeros((5, n if model.bending.stiffness.size else 0)),
+        bed=np.zeros((4, n if model.ground.on else 0)),
+        hold=np.zeros((2, n if model.ground.on else 0)),
+        wave_work=np.zeros(WORK_SIZE if waving else 0),
         load=np.zeros((model.point_node.size, 9)),
         matrix=np.zeros((6, 7)),
     )

@@ -5,6 +5,7 @@ of the forces on all its nodes over the sum of their inertia; riding ones go wit
 """
 
 from .cache import stage
+from .clamps import turn_clamps_with_platform
 from .layout import POINT_COUPLED, POINT_FIXED, POINT_FREE, POINT_RIDING
 from .model import LOOSE
 from .platform import cross, platform_at, rotate, turned
@@ -15,6 +16,7 @@ from .tension import TINY
 def _move_coupled_points(model, state, motion, s, with_place, euler_step, staggered):
     place, velocity, phi, omega = platform_at(motion, s)
     quaternion = (state.pose[3], state.pose[4], state.pose[5], state.pose[6])  # of the interval's start
+    turn_clamps_with_platform(model, state, quaternion, phi)
     for i in range(model.coupled_points.size):
         p = model.coupled_points[i]
         node = model.point_node[p]
@@ -66,23 +68,28 @@ def carry_ends(model, state):
 
 
 @stage
-def add_inertia(model, state, node, matrix):
+def add_inertia(model, state, scratch, node, matrix):
     """`matrix` (6,): xx, yy, zz, xy, xz, yz, plus the node's inertia m I + (m_a - m) t t' and what its contact with the bed takes in a step."""
     t = state.tangent
     tx, ty, tz = t[0, node] + t[0, node + 1], t[1, node] + t[1, node + 1], t[2, node] + t[2, node + 1]
     normal, axial = state.inertia_normal[node], state.inertia_axial[node]
     surplus = (axial - normal) / max(tx * tx + ty * ty + tz * tz, TINY)
-    contact = 0.0
-    if state.position[2, node] < model.bed_level:
+    across, along, nx, ny, nz = 0.0, 0.0, 0.0, 0.0, 1.0
+    if model.ground.on:
+        bed = scratch.bed
+        across, along = scratch.hold[0, node], scratch.hold[1, node]
+        nx, ny, nz = bed[1, node], bed[2, node], bed[3, node]
+    elif state.position[2, node] < model.bed_level:
         step = state.settings[1]
-        contact = step * (model.bed_damping[node] + step * model.bed_stiffness[node])
+        across = step * (model.bed_damping[node] + step * model.bed_stiffness[node])
+    more = across - along
     return (
-        matrix[0] + normal + surplus * tx * tx,
-        matrix[1] + normal + surplus * ty * ty,
-        matrix[2] + normal + surplus * tz * tz + contact,
-        matrix[3] + surplus * tx * ty,
-        matrix[4] + surplus * tx * tz,
-        matrix[5] + surplus * ty * tz,
+        matrix[0] + normal + along + surplus * tx * tx + more * nx * nx,
+        matrix[1] + normal + along + surplus * ty * ty + more * ny * ny,
+        matrix[2] + normal + along + surplus * tz * tz + more * nz * nz,
+        matrix[3] + surplus * tx * ty + more * nx * ny,
+        matrix[4] + surplus * tx * tz + more * nx * nz,
+        matrix[5] + surplus * ty * tz + more * ny * nz,
     )
 
 
@@ -110,8 +117,9 @@ def _shares_load(model, p):
 
 
 @stage
-def _add_node(model, state, node, load, p):
-    m = add_inertia(model, state, node, (load[p, 3], load[p, 4], load[p, 5], load[p, 6], load[p, 7], load[p, 8]))
+def _add_node(model, state, scratch, node, p):
+    load = scratch.load
+    m = add_inertia(model, state, scratch, node, (load[p, 3], load[p, 4], load[p, 5], load[p, 6], load[p, 7], load[p, 8]))
     for k in range(3):
         load[p, k] += state.force[k, node]
     for k in range(6):
@@ -119,17 +127,18 @@ def _add_node(model, state, node, load, p):
 
 
 @stage
-def gather(model, state, load):
-    """Forces and inertia (P, 9) of all nodes that move with each free or riding point: its own and those of the ends it holds."""
+def gather(model, state, scratch):
+    """Put forces and inertia of all nodes that move with each free or riding point, its own and those of the ends it holds, into scratch.load."""
+    load = scratch.load
     for p in range(model.point_node.size):
         for k in range(9):
             load[p, k] = 0.0
         if _shares_load(model, p) and model.point_node[p] < model.size:
-            _add_node(model, state, model.point_node[p], load, p)
+            _add_node(model, state, scratch, model.point_node[p], p)
     for e in range(model.end_node.size):
         p = state.end_point[e]
         if p != LOOSE and _shares_load(model, p):
-            _add_node(model, state, model.end_node[e], load, p)
+            _add_node(model, state, scratch, model.end_node[e], p)
 
 
 @stage

@@ -89,7 +89,7 @@ def _show_line(model, state, row, readings, line):
 
 @stage
 def _show_bodies(model, state, row, readings):
-    """What the turning of coupled bodies takes, and what pinned parts hand to coupled pins."""
+    """What the turning of coupled bodies takes, and what clamps and pinned parts hand to the platform."""
     q = (state.pose[3], state.pose[4], state.pose[5], state.pose[6])
     back = (-q[0], -q[1], -q[2], q[3])
     omega = (state.twist[3], state.twist[4], state.twist[5])
@@ -103,6 +103,11 @@ def _show_bodies(model, state, row, readings):
         gyro = cross(omega, momentum)
         for k in range(3):
             readings.coupled[row, o, 3 + k] -= turning[k] + gyro[k]
+    for c in range(model.clamps.part.size):
+        if model.clamps.riding[c] != 0:
+            o = model.output_of[model.bending.clamp_point[c]]
+            for k in range(3):
+                readings.coupled[row, o, 3 + k] += state.clamp_moment[c, k]
     for b in range(model.rigid.mass.size):
         p = model.rigid.pin[b]
         if p >= 0 and model.point_kind[p] == POINT_COUPLED:

@@ -187,6 +187,10 @@ def move_parts(model, state, scratch):
                 m = load[p]
                 _add_load(matrix, arm, (m[0], m[1], m[2]))
                 _add_mass(matrix, ((m[3], m[6], m[7]), (m[6], m[4], m[8]), (m[7], m[8], m[5])), arm, omega)
+        for c in range(model.clamps.part.size):
+            if model.clamps.part[c] == b:
+                for k in range(3):
+                    matrix[3 + k, 6] += state.clamp_moment[c, k]
         if rigid.pin[b] >= 0:
             _turn_about_pin(model, state, b, matrix)
         else:

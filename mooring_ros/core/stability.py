@@ -11,10 +11,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .hinges import stiffness_rows
+from .layout import POINT_COUPLED, POINT_FIXED
+from .model import LOOSE
 from .ropes import rope_limits
 from .schemes import LEAPFROG, SAFETY, SSP, stable_step
 
 REFERENCE_SPEED = 2.0  # m/s, at which the drag's own limit is stated
+UNDAMPED = 0.15  # rad: undamped modes grow by 0.012 of its fourth power in a step of the schemes of several stages: 1e-5
 ACCURACY = 0.66  # of count / w = L / (2 c): 0.3 % of the dynamic tension on the OC4 chains (docs/measurements.md)
 
 
@@ -33,22 +37,30 @@ class StepLimit:
     axial: dict
 
 
-def step_limit(scene, model, dt=None):
+def step_limit(scene, model, end_point, dt=None):
     """StepLimit of `scene` built as `model`; `dt` (s) caps the step."""
     axial = dict.fromkeys((LEAPFROG, *SSP), np.inf)
-    limits = dict.fromkeys(("axial", "drag at 2 m/s", "bed stiffness", "bed damping", "axial accuracy"), np.inf)
-    worst = ""
+    slowest = np.inf
+    limits = dict.fromkeys(("axial", "bending", "drag at 2 m/s", "bed stiffness", "bed damping", "axial accuracy"), np.inf)
+    worst, bends = "", bending_frequencies(model, end_point)
     for k, line in enumerate(scene.lines):
         first, count = model.first_node[k], model.segments[k]
         length = float(model.length[first + 1])
         stiffness, damping = rope_limits(line.type, length)
         omega = 2.0 / length * math.sqrt(stiffness / line.type.mass)
         zeta = 0.5 * omega * damping / stiffness
+        bend = float(bends[k])
+        both = math.hypot(omega, bend)
         for scheme in axial:
-            axial[scheme] = min(axial[scheme], stable_step(scheme, omega, zeta))
-        if 2.0 / omega < limits["axial"]:
-            limits["axial"] = 2.0 / omega
-            worst = line.name
+            step = stable_step(scheme, both, zeta)
+            if scheme != LEAPFROG and bend > 0.0:  # bending has no internal damping: its modes lie next to the imaginary axis
+                step = min(step, UNDAMPED / bend)
+            axial[scheme] = min(axial[scheme], step)
+        if 2.0 / both < slowest:
+            slowest, worst = 2.0 / both, line.name
+        limits["axial"] = min(limits["axial"], 2.0 / omega)
+        if bend > 0.0:
+            limits["bending"] = min(limits["bending"], 2.0 / bend)
         limits["axial accuracy"] = min(limits["axial accuracy"], ACCURACY * int(count) / omega)
         for name, step in _node_limits(model, slice(first, first + count + 1)):
             limits[name] = min(limits[name], step)
@@ -64,7 +76,34 @@ def step_limit(scene, model, dt=None):
         return StepLimit(float(dt), "dt", limits, usable)
     if accurate < stable:
         return StepLimit(accurate, "accuracy of the first axial mode", limits, usable)
-    return StepLimit(stable, f"stability of axial waves in {worst}", limits, usable)
+    what = "bending" if limits["bending"] < limits["axial"] else "axial"
+    return StepLimit(stable, f"stability of {what} waves in {worst}", limits, usable)
+
+
+def bending_frequencies(model, end_point):
+    """(lines,) rad/s that the bending modes of each line do not pass: row sums over masses, clamps on parts with the parts' inertia."""
+    bending, rigid = model.bending, model.rigid
+    if not bending.stiffness.size:
+        return np.zeros(model.first_node.size)
+    rows, mass = stiffness_rows(bending, model.length), model.mass.copy()
+    for quantity in (rows, mass):  # what ends at the same point moves with it
+        at = np.zeros(model.point_node.size)
+        held = end_point != LOOSE
+        np.add.at(at, end_point[held], quantity[model.end_node[held]])
+        at += quantity[model.point_node] if quantity is mass else 0.0
+        quantity[model.end_node[held]] = at[end_point[held]]
+    square = rows / np.maximum(mass, 1e-300)
+    for c, b in enumerate(model.clamps.part):
+        if b >= 0:
+            axis = model.clamps.axis[c]
+            across = np.linalg.svd(axis[None, :])[2][1:]
+            slowness = np.linalg.inv(rigid.inertia[b] + 1e-12 * np.trace(rigid.inertia[b]) * np.eye(3))
+            turning = bending.clamp_stiffness[c] * np.linalg.eigvalsh(across @ slowness @ across.T).max()
+            segment = bending.clamp_segment[c]
+            square[segment - 1 : segment + 1] += turning
+    prescribed = (end_point != LOOSE) & np.isin(model.point_kind[end_point], (POINT_FIXED, POINT_COUPLED))
+    square[model.end_node[prescribed]] = 0.0
+    return np.array([math.sqrt(square[first : first + count + 1].max()) for first, count in zip(model.first_node, model.segments)])
 
 
 def _node_limits(model, nodes):

@@ -13,13 +13,17 @@ from scipy import sparse
 from scipy.sparse.linalg import splu
 
 from . import catenary
+from .bending_tangent import bending_blocks, bending_pattern
 from .forces import evaluate_once
-from .freedom import Freedom
+from .freedom import Freedom, block_matrix
+from .ground import commit_grip, ground_blocks
+from .laying import lay
 from .layout import POINT_COUPLED, POINT_FIXED, POINT_RIDING
 from .model import LOOSE
 from .platform import rotate
 from .ropes import build_ropes, rope_statics, settle_creep
 from .tangent import balance, fill_tangent, predict_tension, stretch_linearly
+from .waves import calm
 
 TOLERANCE, ACCEPTABLE = 1e-9, 1e-6  # of the heaviest line's weight: what is asked for, and what will do when nothing finds more
 OWN_TENSION_ITERATIONS = 60  # and one more for each segment of the longest line: nodes may leave the bed one by one
@@ -48,6 +52,7 @@ class StaticSolver:
 
     def __init__(self, scene, model):
         n = model.mass.size
+        self._bed = None
         self.model = model._replace(stiffness=model.stiffness.copy())  # of ropes: where their tensions stand
         self._slack_strain = np.zeros(n)
         self._no_ropes = build_ropes([])
@@ -56,6 +61,9 @@ class StaticSolver:
         self._indices = (np.arange(n)[:, None] + np.array([-1, 0, 1])).ravel()[1:-1]
         self.move = np.zeros((3, n))
         self._freedom, self._held = None, None
+        self._pattern = bending_pattern(model.bending)
+        clamps = model.clamps.part.size
+        self._bent, self._turn, self._axis = np.zeros((self._pattern.rows.size, 3, 3)), np.zeros((clamps, 2, 3, 3)), np.zeros((clamps, 3, 3))
         self.lengths = [line.length for line in scene.lines]
         load = np.abs(model.weight) + np.abs(model.buoyancy)
         tension = model.live * model.stiffness * 1e-6  # a scale where nothing weighs
@@ -74,6 +82,7 @@ class StaticSolver:
         state.acceleration_of_platform[:] = 0.0
         state.velocity[:] = 0.0
         state.wet[:] = 1.0
+        calm(state.window_times, state.window)
         state.parts[:, 7:] = 0.0
         if first_guess:
             state.parts[:, :7] = model.rigid.start
@@ -82,6 +91,8 @@ class StaticSolver:
                 state.position[:, node] = pose[:3] + np.array(rotate(pose[3:], model.point_place[p]))
             elif model.point_kind[p] == POINT_FIXED or first_guess and model.point_kind[p] != POINT_RIDING:
                 state.position[:, node] = model.point_place[p]
+        for c in np.flatnonzero(model.clamps.riding):
+            state.clamp_axis[c] = rotate(pose[3:], model.clamps.axis[c])
         for p in model.rigid.riding:
             part = state.parts[model.rigid.part[p]]
             state.position[:, model.point_node[p]] = part[:3] + np.array(rotate(part[3:7], model.point_place[p]))
@@ -121,6 +132,7 @@ class StaticSolver:
         """Newton from the present positions (and tensions); returns a StaticResult. Positions are the best found, velocities zero."""
         if self._held is None or (self._held != state.end_point).any():
             self._freedom, self._held = Freedom(self.model, state), state.end_point.copy()
+        self._bed = scratch.bed
         state.settings[:6] = (0.0, 0.0, 1.0, 1.0, 0.0, np.inf)
         state.settings[7] = 1.0
         state.bed_relief[:] = 1.0
@@ -134,6 +146,17 @@ class StaticSolver:
         settle_creep(self.model.ropes, state.tension, state.creep)
         state.settings[7] = 0.0
         return StaticResult(iterations, residual, goal, bool(residual <= goal))
+
+    def lay_down(self, state):
+        """Let the lines lie as they were laid, for friction that remembers: pulled tight from there they settle with it."""
+        lay(self.model.ground, self.model, state.end_point, state.position, state.grip)
+
+    def hold_on(self, state):
+        """Let the nodes hold on to the bed where they are, as far as friction goes; after `solve`."""
+        model = self.model
+        commit_grip(
+            model.ground, model.size, state.position, state.velocity, state.tangent, model.bed_stiffness, model.bed_damping, self._bed, state.grip
+        )
 
     def _with_own_tensions(self, state, scratch, goal, best):
         """Newton with tensions as unknowns of their own: quick for stiff lines, where a small move makes a large force.
@@ -227,7 +250,8 @@ class StaticSolver:
     def _rounding(self, state):
         """The force that rounding of the positions alone makes in the stiffest segment or bed spring (N)."""
         model = self.model
-        stiffest = max((model.live * model.stiffness * model.inverse_length).max(), model.bed_stiffness.max())
+        bed = model.bed_stiffness.max() * (model.ground.stiffness_ratio if state.grip.size else 1.0)
+        stiffest = max((model.live * model.stiffness * model.inverse_length).max(), bed)
         return 16.0 * stiffest * np.finfo(float).eps * max(np.abs(state.position).max(), 1.0)
 
     def _evaluate(self, state, scratch):
@@ -242,14 +266,14 @@ class StaticSolver:
         return self._freedom.sizes(state, self._load(state, force))
 
     def _load(self, state, force):
-        return self._freedom.forces(self._freedom.follow(state), force)
+        return self._freedom.forces(self._freedom.follow(state), state, force)
 
     def _step(self, state, damping):
         """Newton step of the unknowns, shortened where it goes far, with the nodes' moves in self.move; None when the system is singular."""
         free = self._freedom
         follow = free.follow(state)
         matrix = self._stiffness(state, follow, damping)[: free.count, : free.count]
-        load = free.forces(follow, state.force)
+        load = free.forces(follow, state, state.force)
         step = np.zeros(free.count + 6)
         try:
             if free.kept.all():
@@ -274,14 +298,38 @@ class StaticSolver:
         """Sparse (count + 6, count + 6) stiffness between the unknowns, damped."""
         model = self.model
         fill_tangent(model, state, self.blocks)
+        if model.ground.on:
+            ground_blocks(model.ground, model.size, state.position, state.tangent, model.bed_stiffness, self._bed, state.grip, self.blocks[:, 1])
         for k in range(3):
             self.blocks[:, 1, k, k] += damping * self.scale
         n = model.mass.size
         nodes = sparse.bsr_matrix((self.blocks.reshape(-1, 3, 3)[1:-1], self._indices, self._indptr), shape=(3 * n, 3 * n)).tocsr()
-        total = follow.T @ (nodes @ follow)
+        if model.bending.stiffness.size:
+            nodes, turns, axes = self._bending(state, nodes)
+            total = follow.T @ (nodes @ follow) + follow.T @ turns + turns.T @ follow + axes
+        else:
+            total = follow.T @ (nodes @ follow)
         if platform or self._freedom.rigid:
             total = total + self._freedom.turning(state, state.force, platform)
         return total.tocsr()
+
+    def _bending(self, state, nodes):
+        """Stiffness (3n, 3n) with bending, and that between nodes and the turns of what holds clamps (3n, count + 6), and among these."""
+        model, free, pattern = self.model, self._freedom, self._pattern
+        bending_blocks(
+            model.bending, pattern, state.position, state.tangent, model.length, state.end_point, state.clamp_axis, self._bent, self._turn, self._axis
+        )
+        nodes = nodes + block_matrix(pattern.rows, pattern.cols, self._bent, nodes.shape)
+        held = [(c, free.turn_of(model.clamps, c)) for c in range(len(self._axis))]
+        held = [(c, at) for c, at in held if at is not None]
+        size = free.count + 6
+        turns, axes = sparse.lil_matrix((nodes.shape[0], size)), sparse.lil_matrix((size, size))
+        for c, at in held:
+            segment, sign = model.bending.clamp_segment[c], model.bending.clamp_sign[c]
+            for side, node in enumerate((segment - 1, segment) if sign > 0.0 else (segment, segment - 1)):
+                turns[3 * node : 3 * node + 3, at : at + 3] += self._turn[c, side]
+            axes[at : at + 3, at : at + 3] += self._axis[c]
+        return nodes, turns.tocsr(), axes.tocsr()
 
     def _search(self, state, scratch, step):
         """Go along `step` to where the force along it has all but vanished. Returns (share of the step, residual)."""

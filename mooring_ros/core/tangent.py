@@ -16,7 +16,7 @@ def fill_tangent(model, state, blocks):
     below, diagonal, above = blocks[:, 0], blocks[:, 1], blocks[:, 2]
     _axial(model, state, diagonal, above, below)
     for i in range(model.size):
-        if state.position[2, i] < model.bed_level:
+        if not model.ground.on and state.position[2, i] < model.bed_level:
             diagonal[i, 2, 2] += model.bed_stiffness[i]
     for i in range(model.size):
         _drag(model, state, i, diagonal, above, below)
