@@ -67,7 +67,12 @@ def fastest_water(environment):
 
 
 def components(waves):
-    """(frequency, amplitude, phase), each (J,), of a `Waves` description."""
+    """(frequency, amplitude, phase), each (J,), of a `Waves` description; none where the sea is flat."""
+    found = _components(waves)
+    return tuple(values[found[1] != 0.0] for values in found)
+
+
+def _components(waves):
     if waves.kind == REGULAR:
         return np.array([2.0 * np.pi / waves.period]), np.array([0.5 * waves.height]), np.array([float(waves.phase)])
     if waves.kind == JONSWAP:
@@ -123,6 +128,8 @@ def series_components(series):
     spacing = (series[-1, 0] - series[0, 0]) / (len(series) - 1)
     eta = series[:, 1] - series[:, 1].mean()
     plain = _strongest(eta, spacing)
+    if plain[0].size == 0:
+        return plain
     mean = np.sum(plain[1] ** 2 * plain[0]) / np.sum(plain[1] ** 2)
     bridged = _strongest(np.concatenate([eta, _way_back(eta, int(np.ceil(2.0 * np.pi / (mean * spacing))))]), spacing)
     return min(plain, bridged, key=lambda found: found[0].size)
@@ -151,9 +158,8 @@ def _way_back(eta, count):
 
 
 def given_components(rows):
-    """Components by growing frequency from rows (rad/s, m, rad); those without an amplitude are left out."""
-    rows = rows[rows[:, 1] != 0.0]
-    if np.any(rows[:, 0] <= 0.0):
+    """Components by growing frequency from rows (rad/s, m, rad)."""
+    if np.any((rows[:, 0] <= 0.0) & (rows[:, 1] != 0.0)):
         raise ValueError(f"a wave component of {rows[:, 0].min():g} rad/s, expected more than 0")
     frequency, amplitude, phase = rows[np.argsort(rows[:, 0], kind="stable")].T.copy()
     return frequency, amplitude, phase
@@ -161,7 +167,7 @@ def given_components(rows):
 
 def refresh_interval(frequency, amplitude):
     """Span (s) of a window in which cubic Hermite, (w dt)^4/384 wrong for a component, misses `VELOCITY_ERROR` of the rms velocity."""
-    if not np.any(amplitude > 0.0):
+    if frequency.size == 0:
         return np.inf
     energy = amplitude**2
     mean = np.sum(energy * frequency) / np.sum(energy)

@@ -106,7 +106,7 @@ def _sum_below(sea, time, highest, work):
 @stage
 def _grown(sea, time):
     """(factor, its rate in 1/s) by which the waves have grown: half a cosine."""
-    if time >= sea.ramp:
+    if time >= sea.ramp or sea.ramp <= 0.0:
         return 1.0, 0.0
     if time <= 0.0:
         return 0.0, 0.0

@@ -10,7 +10,9 @@ import numpy as np
 
 from .cache import kernel, stage
 from .current import add_layers
-from .wave_sums import DU, DW, ETA, ETA_T, ETA_X, U, U_SHIFT, U_X, U_Z, W, W_SHIFT, W_X, W_Z, WINDOW_ROWS, WORK_SIZE, X, Z, sum_waves  # noqa: F401
+from .wave_sums import DU, DW, ETA, ETA_T, ETA_X, U, U_SHIFT, U_X, U_Z, W, W_SHIFT, W_X, W_Z, WINDOW_ROWS, WORK_SIZE, X, Z, sum_waves
+
+__all__ = ["WINDOW_ROWS", "WORK_SIZE", "calm", "copy_window", "outdated", "refresh", "streams", "waken"]
 
 
 @stage

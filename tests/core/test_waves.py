@@ -121,6 +121,21 @@ def test_waves_grow_over_the_ramp():
     assert elevation(still, [40.0, 100.0]) == pytest.approx(elevation(grown, [40.0, 100.0]), rel=1e-12)
 
 
-def test_a_scene_without_waves_has_no_components():
-    waves = build_sea(Environment(depth=100.0))
-    assert waves.frequency.size == 0 and waves.layer_bottom.size == 0 and waves.refresh == np.inf
+def test_a_ramp_of_no_length_leaves_times_before_the_start_their_waves():
+    assert elevation(storm(), -50.0) != 0.0
+
+
+@pytest.mark.parametrize(
+    "flat",
+    [
+        None,
+        Waves(kind=REGULAR, height=0.0, period=9.0),
+        Waves(kind=JONSWAP, height=0.0, period=9.0),
+        Waves(kind=ELEVATION, elevation=((0.0, 0.3), (0.5, 0.3), (1.0, 0.3))),
+        Waves(kind=COMPONENTS, spectrum=((0.0, 0.0, 0.0),)),
+    ],
+)
+def test_a_flat_sea_has_no_components(flat):
+    waves = build_sea(Environment(depth=100.0, waves=flat))
+    assert waves.frequency.size == waves.amplitude.size == waves.phase.size == waves.wave_number.size == 0
+    assert waves.layer_bottom.size == 0 and waves.refresh == np.inf
