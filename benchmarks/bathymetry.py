@@ -6,6 +6,7 @@ In the plane of the slope that makes no difference without friction: the chain i
 """
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -13,7 +14,7 @@ from scipy.interpolate import CubicSpline
 from mooring_ros.mooring import Mooring
 from mooring_ros.scene import load_scene
 
-from . import cabledyn_peer, figures, moordyn_peer, tables
+from . import figures, tables
 from .moordyn_history import SCENES
 from .motions import SurgeHeave
 from .ours import at_rest, samples
@@ -23,6 +24,8 @@ MOTION = SurgeHeave(surge=3.5, heave=3.7, period=14.9, ramp_periods=2.0, measure
 PEER_STEP = 2e-3  # s: a third of the step at which it blows up
 CABLEDYN_STEP = 0.05  # s
 SAMPLE = 0.1  # s
+STILL = SurgeHeave(surge=0.0, heave=0.0, period=1.0, ramp_periods=0.5, measured_periods=0.5)
+FILE = Path(__file__).parent / "data" / "bathymetry_peers.csv"
 GOAL = 0.01  # of the mean tension, against MoorDyn where its law is the same, else against CableDyn
 SAME_LAW = {"flat": (0, 1, 2), "upslope": (0,), "downslope": (0,), "sideslope": ()}  # lines that lie in the plane of the slope
 
@@ -35,12 +38,16 @@ def fairleads(scene):
 
 def of_moordyn(scene, times, motion=MOTION):
     """Tension (samples, lines) N of the segments at the fairleads."""
-    run = moordyn_peer.run(scene, motion, PEER_STEP, "RK2", sample=SAMPLE, options=("1 ICgenDynamic",), friction=False)
+    from . import moordyn_peer
+
+    run = moordyn_peer.run(scene, motion, PEER_STEP, "RK2", sample=SAMPLE, options=("1 ICgenDynamic",))
     return CubicSpline(run.times, run.tension[:, fairleads(scene)])(times)
 
 
 def of_cabledyn(scene, times, motion=MOTION):
     """The same; of a segment's axial force, the damping left out that CableDyn does not report."""
+    from . import cabledyn_peer
+
     columns = []
     for chain in cabledyn_peer.chains(scene):
         run = cabledyn_peer.run(scene, chain, motion, CABLEDYN_STEP, motion.end, curvature=False)
@@ -50,22 +57,76 @@ def of_cabledyn(scene, times, motion=MOTION):
 
 def of_ours(scene, times, motion=MOTION):
     """The same."""
-    mooring = Mooring(replace(scene, environment=replace(scene.environment, friction=None)))
+    mooring = Mooring(scene)
     mooring.settle(at_rest(motion))
     history = mooring.run(*samples(motion, 1.0 / SAMPLE))
     return CubicSpline(history.time, np.array(history.fairlead_tension)[:, fairleads(scene)])(times)
 
 
+def scenes():
+    """{bed: Scene}, without friction."""
+    loaded = {bed: load_scene(SCENES / f"volturnus_s_semi_taut{ending}.txt") for bed, ending in BEDS.items()}
+    return {bed: replace(scene, environment=replace(scene.environment, friction=None)) for bed, scene in loaded.items()}
+
+
+def statics(scene):
+    """Tension (lines,) N of the segments at the fairleads, at rest: ours."""
+    mooring = Mooring(scene)
+    mooring.settle(at_rest(STILL))
+    return mooring.fairlead_tension[fairleads(scene)]
+
+
+def peer_statics(scene):
+    """The same of MoorDyn and of CableDyn."""
+    end = np.array([STILL.end - SAMPLE])
+    return of_moordyn(scene, end, STILL)[0], of_cabledyn(scene, end, STILL)[0]
+
+
+def load_statics():
+    """{(bed, index of the line): (MoorDyn's, CableDyn's static tension in N)} from the file."""
+    with open(FILE, encoding="utf-8") as file:
+        rows = [line.split(",") for line in file if not line.startswith("#")][1:]
+    return {(bed, int(line)): (float(a), float(b)) for bed, line, a, b in rows}
+
+
+def write_statics(found):
+    """Keep the peers' static tensions {(bed, line): (MoorDyn's, CableDyn's)} in the file, for the tests."""
+    with open(FILE, "w", encoding="utf-8") as file:
+        file.write("# VolturnUS-S semi-taut on four beds without friction, benchmarks/bathymetry.py: static tension [N] of the segments at the fairleads\n")
+        file.write("# MoorDyn 2.7.2 (dynamic relaxation), CableDyn 0.3.0\nbed,line,MoorDyn,CableDyn\n")
+        for (bed, line), (a, b) in found.items():
+            file.write(f"{bed},{line},{a:.1f},{b:.1f}\n")
+
+
+def statics_table():
+    """Static tensions of ours and the peers, and what misses the goal; the peers' go into the file."""
+    peers, rows, failed = {}, [], []
+    for bed, scene in scenes().items():
+        ours = statics(scene)
+        for k, (a, m, c) in enumerate(zip(ours, *peer_statics(scene), strict=True)):
+            peers[bed, k] = (m, c)
+            rows.append([f"{bed}, line {k + 1}", f"{a / 1e3:.2f}", f"{100 * (a / m - 1):+.2f} %", f"{100 * (a / c - 1):+.2f} %"])
+            change = a / (m if k in SAME_LAW[bed] else c) - 1.0
+            if abs(change) > GOAL:
+                failed.append(f"{bed}, line {k + 1}: static tension off by {100 * change:+.2f} %, goal {100 * GOAL:.0f} %")
+    write_statics(peers)
+    return tables.table(["", "static tension, kN", "against MoorDyn", "against CableDyn"], rows), failed
+
+
 def run(quick=False):
-    """All beds; prints the table."""
+    """All beds; prints the tables."""
+    at_first, failed = statics_table()
+    print(at_first, flush=True)
     motion = replace(MOTION, measured_periods=1.0) if quick else MOTION
     times = np.arange(motion.start, motion.end - SAMPLE, SAMPLE)
     found = {}
-    for bed, ending in BEDS.items():
-        scene = load_scene(SCENES / f"volturnus_s_semi_taut{ending}.txt")
+    for bed, scene in scenes().items():
         found[bed] = {"ours": of_ours(scene, times, motion), "MoorDyn": of_moordyn(scene, times, motion), "CableDyn": of_cabledyn(scene, times, motion)}
         print(f"{bed}: done", flush=True)
-    return report(times, found)
+    result = report(times, found)
+    result["tables"]["bathymetry_statics"] = at_first
+    result["failed"] += failed
+    return result
 
 
 def report(times, found):

@@ -6,7 +6,7 @@ from mooring_ros.offline.plots import COLOURS, style_axis
 
 WIDTH = 9.6  # inches
 STYLES = {  # one look for each code in all figures
-    "ours": {"color": COLOURS[0], "linewidth": 1.5},
+    "ours": {"color": COLOURS[0], "linewidth": 3.2, "alpha": 0.45},  # broad and pale: the others run inside it
     "MoorDyn": {"color": COLOURS[1], "linewidth": 1.3, "linestyle": "--"},
     "CableDyn": {"color": COLOURS[2], "linewidth": 1.3, "linestyle": ":"},
 }
