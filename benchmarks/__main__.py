@@ -13,6 +13,7 @@ BENCHMARKS = {
     "closed_forms": "statics and platform stiffness against closed forms",
     "kernel_cost": "ns for one node and force evaluation, against a bare vector kernel",
     "bergdahl": "the 33 m laboratory chain: 30 measured maxima",
+    "bending": "the cantilevers of Hall, Srinivas and Yu against MoorDyn and the exact elastica: tip deflection, and decay",
     "rm3_cable": "the RM3 umbilical in waves against MoorDyn and CableDyn: tension and curvature along the cable (a quarter of an hour)",
     "waves": "the sea: a long realisation, and the water's motion against MoorDyn's",
     "bathymetry": "the VolturnUS-S semi-taut mooring on four beds without friction, against MoorDyn and CableDyn",
