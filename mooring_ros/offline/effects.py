@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from mooring_ros.scene import BODY, COMPONENTS, ELEVATION, FREE, PAPER, REGULAR, RodEnd, bed_level
+from mooring_ros.scene import BODY, COMPONENTS, ELEVATION, FREE, PAPER, REGULAR, SATURATED, RodEnd, bed_level
 
 from .bed_shape import depths
 from .contents import end_name
@@ -132,7 +132,7 @@ def _friction(friction):
     else:
         of = (f"kinetic {friction.kinetic_axial:g} along and {friction.kinetic_transverse:g} across the line, "
               f"static {friction.static_axial:g} and {friction.static_transverse:g}")
-    ramp = f", ramp {friction.ramp:g} N s/m" if friction.law == "saturated" else ""
+    ramp = f", ramp {friction.ramp:g} N s/m; by the speed, so none in the statics" if friction.law == SATURATED else "; statics as laid from the anchors"
     return _effect("bed friction", True, f"law {friction.law}, {of}{ramp}")
 
 

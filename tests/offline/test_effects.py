@@ -89,7 +89,7 @@ def found(text, files=FILES):
     ("waves on the lines", "jonswap, Hs = 6 m, Tp = 11 s, gamma = 3.3, 100 components, seed 7, running 30° from x towards y, growing over 60 s"),
     ("bed contact", "at the zero pose 4 of 8 nodes lie on it"),
     ("bathymetry", "depth 50 to 70 m on a grid of 2 × 2, x -400 to 400 m, y -400 to 400 m; under the lines at the zero pose 60 to 60 m"),
-    ("bed friction", "law stick, kinetic 0.7 along and 0.9 across the line, static 0.91 and 1.17"),
+    ("bed friction", "law stick, kinetic 0.7 along and 0.9 across the line, static 0.91 and 1.17; statics as laid from the anchors"),
     ("free surface", "the waves' surface"),
     ("free points", "point4 (500 kg, 0.1 m³)"),
     ("rods", "rod1 (coupled, 2.23607 m), rod2 (on body1, 2 m)"),
@@ -103,7 +103,7 @@ def test_each_effect_of_a_scene_with_all_of_them_is_on_and_says_why(name, says):
 
 @pytest.mark.parametrize("option, effect, says", [
     ("regular WaveModel\n2 WaveHeight\n8 WavePeriod\n45 WavePhase", "waves on the lines", "regular, H = 2 m, T = 8 s, phase 45°, running 0°"),
-    ("0.6 FrictionCoefficient\n2 StatDynFricScale", "bed friction", "law saturated, kinetic 0.6, static 1.2 in every direction, ramp 100 N s/m"),
+    ("0.6 FrictionCoefficient\n2 StatDynFricScale", "bed friction", "law saturated, kinetic 0.6, static 1.2 in every direction, ramp 100 N s/m; by the speed, so none in the statics"),
     ("0.1 BedSlopeX\n-0.05 BedSlopeY", "bathymetry", "depth 60 m at the origin, the bed rises by 0.1 along x and -0.05 along y"),
     ("0.3 CurrentX\n0.4 CurrentY", "current", "0.5 m/s"),
 ])
