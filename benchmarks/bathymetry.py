@@ -2,7 +2,8 @@
 
 The platform is moved by regular waves of 9.3 m and 14.9 s at 90 degrees: sway and heave a quarter period apart, the same on all beds.
 MoorDyn (C++) pushes lines on a slope straight up; ours and CableDyn push along the bed's normal, as the paper and MoorDyn's Fortran version do.
-In the plane of the slope that makes no difference without friction: the chain is held at the same place. Across it the chain slides downhill, or not.
+At rest and in the plane of the slope that makes no difference without friction: the chain is held at the same place. Across it the chain slides downhill, or not;
+and in waves that all but slacken a line its own weight draws the chain on a slope tight, or not.
 """
 
 from dataclasses import replace
@@ -27,7 +28,8 @@ SAMPLE = 0.1  # s
 STILL = SurgeHeave(surge=0.0, heave=0.0, period=1.0, ramp_periods=0.5, measured_periods=0.5)
 FILE = Path(__file__).parent / "data" / "bathymetry_peers.csv"
 GOAL = 0.01  # of the mean tension, against MoorDyn where its law is the same, else against CableDyn
-SAME_LAW = {"flat": (0, 1, 2), "upslope": (0,), "downslope": (0,), "sideslope": ()}  # lines that lie in the plane of the slope
+SAME_LAW = {"flat": (0, 1, 2), "upslope": (0,), "downslope": (0,), "sideslope": ()}  # at rest: lines in the plane of the slope
+SAME_LAW_MOVING = {**SAME_LAW, "upslope": ()}  # its line 1 all but slackens in each wave
 
 
 def fairleads(scene):
@@ -140,7 +142,7 @@ def report(times, found):
             swing = {code: deviation["ours"][k] / deviation[code][k] - 1.0 for code in ("MoorDyn", "CableDyn")}
             rows.append([f"{bed}, line {k + 1}", f"{mean['ours'][k] / 1e3:.1f}", f"{deviation['ours'][k] / 1e3:.1f}"])
             rows[-1] += [f"{100 * x:+.2f} %" for code in ("MoorDyn", "CableDyn") for x in (change[code], swing[code])]
-            peer = "MoorDyn" if k in SAME_LAW[bed] else "CableDyn"
+            peer = "MoorDyn" if k in SAME_LAW_MOVING[bed] else "CableDyn"
             if abs(change[peer]) > GOAL:
                 failed.append(f"{bed}, line {k + 1}: mean tension {100 * change[peer]:+.2f} % of {peer}'s, goal {100 * GOAL:.0f} %")
     header = ["", "mean, kN", "deviation, kN", "mean against MoorDyn", "deviation", "mean against CableDyn", "deviation"]
