@@ -6,7 +6,7 @@ import numpy as np
 from mooring_ros.mooring import MooringError
 from mooring_ros.motion import rotation
 from mooring_ros.motion.convention_check import WRONG
-from mooring_ros.node.timing import SourceClock
+from mooring_ros.node.timing import WALL_CLOCK, SourceClock
 from mooring_ros.recording import schedule
 
 WAITING, RUNNING, FAILED, REFUSED = "waiting for input", "running", "failed", "refused"
@@ -152,7 +152,8 @@ class Session:
 
     def _settle_at(self, motion):
         if self._origin is None or motion.stamp < self._stepped:
-            self._origin = motion.stamp
+            # Waves and failures have times of their own: those of a simulation's clock, or of a run by a wall clock.
+            self._origin = motion.stamp if motion.stamp >= WALL_CLOCK else 0
         time, pose = self._seconds(motion.stamp), motion.pose
         self._stepped = motion.stamp
         try:

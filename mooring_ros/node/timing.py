@@ -7,6 +7,7 @@ what the source's clock shows then, so that the last motion can be carried on to
 from collections import deque
 
 MODES = ("input", "timer")
+WALL_CLOCK = 1_000_000_000_000_000_000     # ns: stamps beyond 2001 are those of a wall clock, earlier ones of a simulation
 
 
 class FixedRate:

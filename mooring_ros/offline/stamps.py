@@ -2,7 +2,7 @@
 
 import numpy as np
 
-WALL_CLOCK = 1_000_000_000_000_000_000      # ns: stamps beyond 2001 are those of a wall clock
+from mooring_ros.node.timing import WALL_CLOCK
 
 
 def times_of(stamps, factor=1.0):

@@ -8,6 +8,7 @@ from mooring_ros.motion import Adapter, Gate, Sample
 from mooring_ros.motion.gate import RELOCATED_AFTER
 from mooring_ros.node.output import Output
 from mooring_ros.node.session import AGE_HOLD, FAILED, HORIZON, RUNNING, WAITING, Session
+from mooring_ros.node.timing import WALL_CLOCK
 from mooring_ros.recording import schedule
 
 MS = 1_000_000
@@ -73,9 +74,17 @@ def test_a_source_that_restarts_is_taken_up_by_settle(session):
     session.take(sample(10_000 * MS), None)
     for k in range(RELOCATED_AFTER):
         assert session.take(sample(k * MS), None) is None
-    assert session.settle()[0] and session.mooring.time == 0.0
+    assert session.settle()[0] and session.mooring.time == pytest.approx((RELOCATED_AFTER - 1) * 1e-3)
     assert session.take(sample(RELOCATED_AFTER * MS), None) == RELOCATED_AFTER * MS
-    assert session.mooring.time == pytest.approx(1e-3)
+    assert session.mooring.time == pytest.approx(RELOCATED_AFTER * 1e-3)
+
+
+@pytest.mark.parametrize("first, time", [(12_000 * MS, 12.0), (WALL_CLOCK + 12_000 * MS, 0.0)], ids=["simulation", "wall clock"])
+def test_the_cores_time_is_that_of_a_simulated_clock_and_begins_with_a_wall_clocks_first_sample(session, first, time):
+    session.take(sample(first), None)
+    assert session.mooring.time == pytest.approx(time)
+    session.take(sample(first + 10 * MS), None)
+    assert session.mooring.time == pytest.approx(time + 0.01)
 
 
 def test_after_a_step_that_failed_nothing_is_answered_until_settle(session, monkeypatch):
