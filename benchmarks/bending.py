@@ -138,10 +138,13 @@ def picture(rows, decays):
         for length, mass in dict.fromkeys(row[:2] for row in rows):
             chosen = [row for row in rows if row[:2] == (length, mass) and row[column] is not None]
             label = code if (length, mass) == CASES[0] else None
-            left.loglog([row[2] for row in chosen], [100 * abs(row[column]) for row in chosen], marker=marker, markersize=4, label=label, **figures.STYLES[code])
+            style = figures.STYLES[code] | {"linewidth": 1.3, "alpha": 0.8, "marker": marker, "markersize": 4}
+            left.loglog([row[2] for row in chosen], [100 * abs(row[column]) for row in chosen], label=label, **style)
     left.set(xlabel="segments", ylabel="error of the tip deflection, %", title="static, against the exact elastica")
+    left.set_xticks(SEGMENTS, SEGMENTS)
+    left.minorticks_off()
     for segments, (times, heights) in decays["ours"].items():
-        right.plot(times, heights, alpha=0.25 + 0.75 * (segments == max(decays["ours"])), **figures.STYLES["ours"])
+        right.plot(times, heights, **figures.STYLES["ours"] | {"alpha": 1.0 if segments == DECAY_SEGMENTS[-1] else 0.3})
     right.plot(*decays["MoorDyn"], **figures.STYLES["MoorDyn"])
     right.set(xlabel="time, s", ylabel="height of the tip, m", title="10 m, 1000 kg, let go: 2, 4, 6 and (dark) 8 segments", xlim=(0.0, DECAY))
     figures.legend(figure, left)
