@@ -180,10 +180,10 @@ def waves_figure(found):
     figure, grid = figures.axes(1, len(found), height=3.6, sharey=True)
     for axis, (law, chain) in zip(grid[0], found.items(), strict=True):
         for colour, s in zip(figures.COLOURS, WAVES_AT, strict=False):
-            axis.plot(chain.times, chain.tension[:, round(s / 10.0)] / 1e3, color=colour, linewidth=1.2, label=f"{s} m from the anchor")
+            axis.plot(chain.times, chain.tension[:, round(s / 10.0)] / 1e3, color=colour, linewidth=1.2, label=f"{s} m")
         axis.set_title(law, loc="left", fontsize=10)
         axis.set_xlabel("time (s)")
-    grid[0, 0].set_ylabel("tension (kN)")
+    grid[0, 0].set_ylabel("tension, at so far from the anchor (kN)")
     figures.legend(figure, grid[0, 0])
     return figure
 

@@ -16,9 +16,9 @@ def computed(scene):
     return bergdahl.compute(scene, list(bergdahl.measured()))
 
 
-def test_all_thirty_measured_maxima_are_met_within_five_percent_on_average(computed):
+def test_all_thirty_measured_maxima_are_met_within_four_percent_on_average(computed):
     assert len(computed) == 30
-    assert bergdahl.mean_error(computed) <= 0.05
+    assert bergdahl.mean_error(computed) <= bergdahl.GOAL
 
 
 def test_no_maximum_is_off_by_more_than_the_reading_error_and_five_percent(computed):
