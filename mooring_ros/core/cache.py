@@ -49,3 +49,8 @@ def stage(function):
     return numba.njit(
         cache=True, nogil=True, error_model="numpy", forceinline=True, _nrt=False, no_cpython_wrapper=True, no_cfunc_wrapper=True
     )(function)
+
+
+def routine(function):
+    """Compile a part of a kernel that is called, not inlined: what is rare enough for the tuples to be passed, or so long that one copy will do."""
+    return numba.njit(cache=True, nogil=True, error_model="numpy", _nrt=False, no_cpython_wrapper=True, no_cfunc_wrapper=True)(function)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .cache import kernel, stage
+from .cache import kernel, routine, stage
 from .failures import part
 from .forces import evaluate, evaluate_once, stream_past
 from .ground import commit_grip
@@ -60,7 +60,7 @@ def look_at_surface(model, state, margin):
     state.settings[2] = 1.0 if surfaced else 0.0
 
 
-@stage
+@routine
 def evaluate_again(model, state, scratch):
     """Evaluate from recalled positions and velocities with the settings in the state."""
     evaluate_once(model, state, scratch, state.settings[0], state.settings[1], state.settings[2] != 0.0)
@@ -138,7 +138,7 @@ def remember_grip(model, state, scratch):
     )
 
 
-@kernel
+@routine
 def let_go(model, state, scratch, time):
     """Let lines part that are due at `time` (s)."""
     parted = part(
@@ -148,7 +148,7 @@ def let_go(model, state, scratch, time):
         evaluate_again(model, state, scratch)
 
 
-@stage
+@routine
 def take_steps(model, state, scratch, evaluations, h, steps, start, ds):
     """`steps` steps of h (s) from `start` of the interval, ds of it each; accelerations must be those of the current state.
 
@@ -185,7 +185,7 @@ def take_steps(model, state, scratch, evaluations, h, steps, start, ds):
     return worst
 
 
-@stage
+@routine
 def advance(model, state, scratch, table, time, pose, twist, report):
     """Advance `state` to `time` (s), where the platform has `pose` (7,) and `twist` (6,). Returns a status code.
 

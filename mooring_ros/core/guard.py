@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .cache import kernel, stage
+from .cache import routine, stage
 from .rigid import copy_parts
 
 EVEN, UNEVEN, TORN = 0, 1, 2
@@ -57,7 +57,7 @@ def copy_rows(source, target):
             target[k, i] = source[k, i]
 
 
-@kernel
+@routine
 def save(model, state, scratch, place):
     """Keep what moves, in the first (0) or second (1) place."""
     copy = scratch.saved[place]
@@ -72,7 +72,7 @@ def save(model, state, scratch, place):
     copy_row(state.failed, scratch.saved_failed[place])
 
 
-@kernel
+@routine
 def recall(model, state, scratch, place):
     copy = scratch.saved[place]
     for k in range(3):

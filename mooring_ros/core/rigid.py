@@ -6,7 +6,7 @@ motion about the part's origin give its acceleration, (m + A) (a + alpha x r + o
 
 import numpy as np
 
-from .cache import kernel, stage
+from .cache import routine, stage
 from .layout import POINT_COUPLED, POINT_RIDING
 from .model import LOOSE
 from .platform import cross, dot, exponential_coefficients, rotate
@@ -15,7 +15,7 @@ from .points import point_acceleration
 SMALLEST_PIVOT = 1e-13  # of the largest: a rod without thickness has no inertia about its axis
 
 
-@kernel
+@routine
 def carry_parts(model, state):
     """Put the internal points that ride on parts where these carry them; a pinned part hangs on its pin."""
     rigid, parts = model.rigid, state.parts
@@ -169,7 +169,7 @@ def _solve(matrix, first):
         matrix[i, 6] = total / max(matrix[i, i], SMALLEST_PIVOT * largest + 1e-300)
 
 
-@kernel
+@routine
 def move_parts(model, state, scratch):
     """Accelerations of the parts from what `points.gather` has put into scratch.load, given to all that rides on them."""
     rigid, parts, matrix, load = model.rigid, state.parts, scratch.matrix, scratch.load
@@ -271,7 +271,7 @@ def _normalise(parts, b):
         parts[b, 3 + k] /= norm
 
 
-@kernel
+@routine
 def euler_parts(parts, a, h, staggered):
     """An Euler step of h (s) of all parts (B, 13) with accelerations a (B, 6); `staggered`: with the new velocities, as leapfrog does."""
     for b in range(parts.shape[0]):
@@ -286,7 +286,7 @@ def euler_parts(parts, a, h, staggered):
                 parts[b, 7 + k] += h * a[b, k]
 
 
-@kernel
+@routine
 def mix_parts(parts, start, old):
     """The mean of the parts (B, 13) now and at `start`, which has the weight `old`."""
     for b in range(parts.shape[0]):
@@ -299,7 +299,7 @@ def mix_parts(parts, start, old):
         _normalise(parts, b)
 
 
-@kernel
+@routine
 def copy_parts(source, target):
     for b in range(source.shape[0]):
         for k in range(13):
