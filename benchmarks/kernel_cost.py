@@ -29,7 +29,7 @@ ROUNDS = 7
 def repeat_evaluation(model, state, scratch, count):
     """Forces and accelerations of all nodes, under water, ``count`` times."""
     for _ in range(count):
-        evaluate(model, state, scratch, state.settings[0], state.settings[1], False)
+        evaluate(model, state, scratch, state.settings[0], state.settings[1], False, True)
 
 
 @numba.njit(nogil=True)
@@ -37,7 +37,7 @@ def repeat_evaluation_in_step(model, state, scratch, count):
     """The same as a step does it: the platform's points are moved first, and wet shares computed if anything is near the surface."""
     for _ in range(count):
         place_coupled_points(model, state, scratch.motion, 0.5)
-        evaluate(model, state, scratch, state.settings[0], state.settings[1], state.settings[2] != 0.0)
+        evaluate(model, state, scratch, state.settings[0], state.settings[1], state.settings[2] != 0.0, True)
 
 
 @numba.njit(nogil=True)

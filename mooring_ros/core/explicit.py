@@ -4,7 +4,7 @@ import numpy as np
 
 from .cache import kernel, routine, stage
 from .failures import part
-from .forces import evaluate, evaluate_once, stream_past
+from .forces import evaluate, evaluate_once
 from .ground import commit_grip
 from .guard import EVEN, FASTEST, IMPLAUSIBLE, TORN, UNEVEN, copy_row, keep_tension, overstretched, recall, runaway, save, speed_of_ends, tension_jumped
 from .platform import start_motion
@@ -14,7 +14,7 @@ from .rigid import copy_parts, euler_parts, mix_parts
 from .schemes import LEAPFROG
 from .seabed import set_bed_relief
 from .surface import all_wet, reaches_above
-from .waves import copy_window, refresh
+from .waves import copy_window, outdated, refresh
 
 DONE, RUNAWAY, TOO_FAST, TOO_LONG, OVERSTRETCHED = 0, 1, 2, 3, 4  # status codes
 
@@ -175,8 +175,7 @@ def take_steps(model, state, scratch, evaluations, h, steps, start, ds):
                 place_coupled_points(model, state, scratch.motion, end)
             if k == evaluations - 1:
                 state.settings[6] = state.clock[0] + end * scratch.motion[7, 0] + 0.5 * h  # the middle of the next step, which begins with this evaluation
-                stream_past(model, state, state.settings[6])
-            evaluate(model, state, scratch, state.settings[0], state.settings[1], state.settings[2] != 0.0)
+            evaluate(model, state, scratch, state.settings[0], state.settings[1], state.settings[2] != 0.0, k == evaluations - 1)
         worst = max(worst, tension_jumped(model, state, scratch, JUMP))
         if state.grip.shape[1] > 0:
             remember_grip(model, state, scratch)
@@ -212,16 +211,18 @@ def advance(model, state, scratch, table, time, pose, twist, report):
     for i in range(6):
         a[i] += share * ((twist[i] - state.twist[i]) / duration - a[i])
     chunks = int(np.ceil(duration / min(CHUNK * largest, model.sea.refresh)))
-    copy_window(state.window_times, state.window, scratch.saved_window_times, scratch.saved_window)
     span = duration / chunks
-    evaluations_taken, steps_taken, retries, shortest = 0.0, 0, 0, duration
+    evaluations_taken, steps_taken, retries, shortest, looked_ahead = 0.0, 0, 0, duration, False
     for chunk in range(chunks):
         start = chunk / chunks
         source = min(chunk, 1)
         save(model, state, scratch, source)
         refined, again = settings[3], False
-        if model.sea.frequency.size > 0:
-            now = state.clock[0] + start * duration
+        now = state.clock[0] + start * duration
+        if model.sea.frequency.size > 0 and outdated(state.window_times, now, now + span):
+            if not looked_ahead:
+                copy_window(state.window_times, state.window, scratch.saved_window_times, scratch.saved_window)
+                looked_ahead = True
             refresh(model.sea, now, now + span, model.size, state.position, state.velocity, scratch.wave_work, state.window_times, state.window)
         while True:
             row, steps = choose_step(table, span, refined)
@@ -249,7 +250,8 @@ def advance(model, state, scratch, table, time, pose, twist, report):
             set_bed_relief(model, state, 0.0 if model.ground.on else settings[1])
             if settings[2] == 0.0:
                 all_wet(model, state)
-            copy_window(scratch.saved_window_times, scratch.saved_window, state.window_times, state.window)
+            if looked_ahead:
+                copy_window(scratch.saved_window_times, scratch.saved_window, state.window_times, state.window)
             evaluate_again(model, state, scratch)
             return RUNAWAY if wild else OVERSTRETCHED
         steps_taken += steps

@@ -61,15 +61,24 @@ def touch_ground(model, state, scratch, step):
 
 
 @stage
-def evaluate(model, state, scratch, drag_time, bed_step, surfaced):
+def stream_past(model, state, time):
+    """The water at the nodes at `time` (s)."""
+    streams(model.sea, time, model.size, state.position, state.window_times, state.window, state.stream, state.swell)
+
+
+@stage
+def evaluate(model, state, scratch, drag_time, bed_step, surfaced, flowing):
     """Forces and accelerations of all nodes and parts from positions and velocities; prescribed points must stand in place.
 
     `drag_time` (s): see `water_loads`; `bed_step` (s): see `bed_contact`. `surfaced`: some of the mooring may be above water. Otherwise `state.wet` must be ones.
+    `flowing`: the water is that of the time in state.settings; otherwise that of the last evaluation.
     """
     if model.rigid.mass.size > 0:
         carry_parts(model, state)
         turn_clamps_with_parts(model, state)
     carry_ends(model, state)
+    if flowing:
+        stream_past(model, state, state.settings[6])
     segment_tensions(model, state)
     if model.ropes.curve_first.size + model.ropes.kelvin_first.size > 0:
         stretch_ropes(model, state, SETTLED if state.settings[7] != 0.0 else bed_step)
@@ -94,14 +103,7 @@ def evaluate(model, state, scratch, drag_time, bed_step, surfaced):
     hold_prescribed(model, state)
 
 
-@stage
-def stream_past(model, state, time):
-    """The water at the nodes at `time` (s)."""
-    streams(model.sea, time, model.size, state.position, state.window_times, state.window, state.stream, state.swell)
-
-
 @kernel
 def evaluate_once(model, state, scratch, drag_time, bed_step, surfaced):
-    """`evaluate` with the water of state.settings, compiled once for all callers outside the stepping loop."""
-    stream_past(model, state, state.settings[6])
-    evaluate(model, state, scratch, drag_time, bed_step, surfaced)
+    """`evaluate`, compiled once for all callers outside the stepping loop."""
+    evaluate(model, state, scratch, drag_time, bed_step, surfaced, True)

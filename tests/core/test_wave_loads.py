@@ -142,6 +142,18 @@ def test_steps_and_runs_and_restored_runs_in_waves_have_the_same_bits():
     assert same_bits(after, one.snapshot())
 
 
+def test_a_refused_step_in_waves_leaves_the_bits_as_they_were():
+    mooring = Mooring(in_waves(STORM, lift=4.0))
+    mooring.settle(HERE)
+    mooring.run(*swaying(mooring))
+    before = mooring.snapshot()
+    far = HERE.copy()
+    far[0] = 60.0
+    with pytest.raises(Exception, match="stretch|run"):
+        mooring.step(mooring.time + 1.0, far, STILL)
+    assert same_bits(before, mooring.snapshot())
+
+
 def test_settling_is_in_still_water_and_the_waves_start_at_the_clocks_time():
     still, waves = Mooring(in_waves(None)), Mooring(in_waves(replace(STORM, ramp=0.0)))
     for mooring in (still, waves):
