@@ -140,10 +140,10 @@ class Mooring:
         self._checked_time(times[0])
         if not (np.isfinite(times).all() and (np.diff(times) > 0.0).all()):
             raise ValueError("times must be finite and grow from sample to sample")
-        poses, twists = checked_poses(poses), np.ascontiguousarray(checked_twists(twists))
+        times, poses, twists = (np.ascontiguousarray(rows) for rows in (times, checked_poses(poses), checked_twists(twists)))
         readings, done = new_readings(self._model, times.size), 0
         try:
-            done = self._run(times, poses, np.ascontiguousarray(twists), readings)
+            done = self._run(times, poses, twists, readings)
         except MooringError as error:
             done = error.samples
             error.history = History.of(times[:done], _rows(readings, slice(0, done)))

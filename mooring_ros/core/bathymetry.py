@@ -11,11 +11,13 @@ from typing import NamedTuple
 import numpy as np
 
 from .cache import stage
+from .packed import packed
 
 ROUNDED = 0.02  # of the narrower cell
 MOST_BINS = 1_000_000
 
 
+@packed
 class Grid(NamedTuple):
     """Bed over X x Y grid lines, the ring beyond the given ones included; all arrays of size 0 when there is none."""
 

@@ -8,8 +8,10 @@ from ..scene.description import SATURATED as SATURATED_LAW
 from .bathymetry import Grid, build_grid, grid_under
 from .cache import kernel, stage
 from .friction import MODULUS, NO_FRICTION, SATURATED, STICK
+from .packed import packed
 
 
+@packed
 class Ground(NamedTuple):
     """The bed of a scene."""
 

@@ -52,5 +52,10 @@ def stage(function):
 
 
 def routine(function):
-    """Compile a part of a kernel that is called, not inlined: what is rare enough for the tuples to be passed, or so long that one copy will do."""
+    """Compile a part of a kernel that is called, not inlined: what is so long that one copy will do."""
     return numba.njit(cache=True, nogil=True, error_model="numpy", _nrt=False, no_cpython_wrapper=True, no_cfunc_wrapper=True)(function)
+
+
+def paragraph(function):
+    """Put the source of a part in place of its one call: the compiler goes over a called function again with each of its callers."""
+    return numba.njit(nogil=True, error_model="numpy", inline="always", _nrt=False)(function)

@@ -6,9 +6,11 @@ import numpy as np
 
 from .cache import stage
 from .layout import POINT_COUPLED
+from .packed import packed
 from .platform import rotate, turned
 
 
+@packed
 class Clamps(NamedTuple):
     """C clamps, in the order of `Bending`."""
 

@@ -2,14 +2,15 @@
 
 import numpy as np
 
-from .cache import kernel, routine, stage
+from .cache import kernel, paragraph, routine, stage
 from .failures import part
-from .forces import evaluate, evaluate_once
+from .forces import evaluate, evaluate_in_place
 from .ground import commit_grip
 from .guard import EVEN, FASTEST, IMPLAUSIBLE, TORN, UNEVEN, copy_row, keep_tension, overstretched, recall, runaway, save, speed_of_ends, tension_jumped
+from .packed import entry
 from .platform import start_motion
 from .points import place_coupled_points, place_staggered_coupled_points, speed_coupled_points
-from .readings import observe
+from .readings import show
 from .rigid import copy_parts, euler_parts, mix_parts
 from .schemes import LEAPFROG
 from .seabed import set_bed_relief
@@ -63,7 +64,7 @@ def look_at_surface(model, state, margin):
 @routine
 def evaluate_again(model, state, scratch):
     """Evaluate from recalled positions and velocities with the settings in the state."""
-    evaluate_once(model, state, scratch, state.settings[0], state.settings[1], state.settings[2] != 0.0)
+    evaluate_in_place(model, state, scratch, state.settings[0], state.settings[1], state.settings[2] != 0.0)
 
 
 @stage
@@ -148,7 +149,7 @@ def let_go(model, state, scratch, time):
         evaluate_again(model, state, scratch)
 
 
-@routine
+@paragraph
 def take_steps(model, state, scratch, evaluations, h, steps, start, ds):
     """`steps` steps of h (s) from `start` of the interval, ds of it each; accelerations must be those of the current state.
 
@@ -184,7 +185,7 @@ def take_steps(model, state, scratch, evaluations, h, steps, start, ds):
     return worst
 
 
-@routine
+@paragraph
 def advance(model, state, scratch, table, time, pose, twist, report):
     """Advance `state` to `time` (s), where the platform has `pose` (7,) and `twist` (6,). Returns a status code.
 
@@ -270,6 +271,7 @@ def advance(model, state, scratch, table, time, pose, twist, report):
     return DONE
 
 
+@entry
 @kernel
 def run(model, state, scratch, table, times, poses, twists, report, readings):
     """Advance through samples: times (k,), poses (k, 7), twists (k, 6); readings get a row for each. Returns (status, samples done)."""
@@ -277,5 +279,5 @@ def run(model, state, scratch, table, times, poses, twists, report, readings):
         status = advance(model, state, scratch, table, times[sample], poses[sample], twists[sample], report)
         if status != DONE:
             return status, sample
-        observe(model, state, sample, readings)
+        show(model, state, sample, readings)
     return DONE, times.size

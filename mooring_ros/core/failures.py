@@ -9,8 +9,10 @@ from typing import NamedTuple
 import numpy as np
 
 from .cache import kernel
+from .packed import packed
 
 
+@packed
 class Failures(NamedTuple):
     """What may part, (F,); every array has size 0 when nothing may. Ends are counted as in Model: end A and end B of each line in turn."""
 

@@ -5,6 +5,7 @@ from .cache import kernel, stage
 from .clamps import turn_clamps_with_parts
 from .ground import bed_under, contact
 from .inertia import accelerations
+from .packed import entry
 from .points import carry_ends, gather, hold_prescribed, move_free_points
 from .rigid import carry_parts, move_parts
 from .ropes import SETTLED, rope_tensions
@@ -104,6 +105,9 @@ def evaluate(model, state, scratch, drag_time, bed_step, surfaced, flowing):
 
 
 @kernel
-def evaluate_once(model, state, scratch, drag_time, bed_step, surfaced):
+def evaluate_in_place(model, state, scratch, drag_time, bed_step, surfaced):
     """`evaluate`, compiled once for all callers outside the stepping loop."""
     evaluate(model, state, scratch, drag_time, bed_step, surfaced, True)
+
+
+evaluate_once = entry(evaluate_in_place)

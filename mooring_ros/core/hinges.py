@@ -15,12 +15,14 @@ from typing import NamedTuple
 import numpy as np
 
 from ..scene.description import ANGLE
+from .packed import packed
 
 GREGORY = (-1.0 / 8.0, 1.0 / 6.0, -1.0 / 24.0)  # correction of the trapezoidal rule's weights from an end inwards
 ONE_SEGMENT = 1.0 / 3.0  # weight of a clamp or joint whose line has one segment and is free to turn at its other end: right for a tip load
 MEASURES = {True: (1.0 / 6.0, 3.0 / 40.0, 0.08), False: (0.0, 0.0, 0.0)}  # r - 1: of the angle (asin(s) / s), of the paper
 
 
+@packed
 class Bending(NamedTuple):
     """Hinges, clamps and joints. n = all nodes and one more; C clamps; J joints with M members in all. `stiffness` is empty when nothing bends."""
 

@@ -18,6 +18,7 @@ from .failures import Failures, build_failures, failure_rows
 from .ground import NO_CONTACT, Ground, build_ground
 from .hinges import Bending, build_bending
 from .layout import POINT_COUPLED, POINT_FREE, POINT_RIDING, Layout
+from .packed import packed
 from .ropes import Ropes, build_ropes, rope_damping
 from .friction import STICK
 from .sea import Sea, build_sea, fastest_water
@@ -27,6 +28,7 @@ LANES = 8  # nodes: a whole number of vectors
 LOOSE = -1  # an end that nothing holds any more
 
 
+@packed
 class Rigid(NamedTuple):
     """Rigid parts that move by themselves: B = parts, R = internal points that ride on them. Axes of the part about its origin unless said."""
 
@@ -43,6 +45,7 @@ class Rigid(NamedTuple):
     start: np.ndarray  # (B, 7) m and quaternion x, y, z, w, world: where the scene puts it
 
 
+@packed
 class Model(NamedTuple):
     """What does not change. n = all nodes and one more; E = 2 x lines (end A, end B of each in turn); P = internal points; O = outputs. World frame, SI."""
 
@@ -97,6 +100,7 @@ class Model(NamedTuple):
     sea: Sea
 
 
+@packed
 class State(NamedTuple):
     """What changes, all of it: a snapshot is a copy of these arrays. Shapes as in Model."""
 
@@ -133,6 +137,7 @@ class State(NamedTuple):
     settings: np.ndarray  # (8,) drag time (s), Euler step of stiff local laws (s), 1 if wet shares are computed; refinement of the step, kept until (s); largest strain; time of the evaluation (s), 1 in the statics
 
 
+@packed
 class Scratch(NamedTuple):
     """Work space of a step; nothing in it outlives one."""
 

@@ -7,11 +7,13 @@ import numpy as np
 from .cache import kernel, stage
 from .layout import POINT_COUPLED
 from .model import LOOSE
+from .packed import entry, packed
 from .platform import cross, dot, rotate
 from .points import point_acceleration
 from .tension import TINY
 
 
+@packed
 class Readings(NamedTuple):
     """Rows of readings, one a sample; k rows, world frame."""
 
@@ -116,7 +118,7 @@ def _show_bodies(model, state, row, readings):
 
 
 @kernel
-def observe(model, state, row, readings):
+def show(model, state, row, readings):
     """Fill one row of `readings` from the last evaluation."""
     coupled = readings.coupled
     for o in range(model.output_point.size):
@@ -143,3 +145,6 @@ def observe(model, state, row, readings):
         mx, my, mz = mx + moment[0] + coupled[row, o, 3], my + moment[1] + coupled[row, o, 4], mz + moment[2] + coupled[row, o, 5]
     w = readings.wrench
     w[row, 0], w[row, 1], w[row, 2], w[row, 3], w[row, 4], w[row, 5] = wx, wy, wz, mx, my, mz
+
+
+observe = entry(show)

@@ -16,11 +16,13 @@ from typing import NamedTuple
 import numpy as np
 
 from .cache import kernel, stage
+from .packed import packed
 
 SETTLED = 1e30  # s: the step of `rope_tensions` at which it is the law at rest
 QUICKEST = 3.0  # shortest time constant BA_1/EA_1 of a slow element, over 1/w of the segment's own axial wave, w = (2/l) sqrt(EA_D/m)
 
 
+@packed
 class Ropes(NamedTuple):
     """The ropes of a mooring; every array has size 0 when there are none of its kind."""
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..scene.description import COMPONENTS, ELEVATION, JONSWAP, REGULAR
 from .current import layers
+from .packed import packed
 
 LOWEST, HIGHEST = 0.4, 5.0  # of the peak frequency: the spectrum's range; beyond lies less than 0.2 % of its energy
 LEFT_OUT = 1e-5  # of the energy of a given elevation: carried by the components that are left out, 0.3 % of its rms
@@ -16,6 +17,7 @@ VELOCITY_ERROR = 1e-3  # of the rms velocity at the surface: what interpolation 
 REFRESHES = 16.0  # in a mean period, at least: nodes leave the straight way on which their window foresees them
 
 
+@packed
 class Sea(NamedTuple):
     """Constant. J components, none without waves, by growing frequency; L layers of current, none without a profile. World frame, SI."""
 

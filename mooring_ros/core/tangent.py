@@ -6,9 +6,11 @@ blocks (n, 3, 3, 3): those of each node with its left neighbour, itself and its 
 import numpy as np
 
 from .cache import kernel, stage
+from .packed import entry
 
 
 
+@entry
 @kernel
 def fill_tangent(model, state, blocks):
     """Blocks at the current positions; `evaluate` must have run there with all velocities zero."""
@@ -125,6 +127,7 @@ def _buoyancy(model, state, diagonal, above, below):
             diagonal[node, 2, 2] += model.buoyancy[node] * 6.0 * under * (1.0 - under) / diameter
 
 
+@entry
 @kernel
 def stretch_linearly(model, state, slack_strain, tension):
     """Let segments with `tension` (n,) > 0 push as well as pull, and take these tensions into the state for `fill_tangent`.
@@ -144,6 +147,7 @@ def stretch_linearly(model, state, slack_strain, tension):
         state.tension[i + 1] = tension[i + 1]
 
 
+@entry
 @kernel
 def predict_tension(model, state, slack_strain, move, tension):
     """Tensions (n,) that the segments will have after `move` (3, n), to first order; zero for those that go slack."""
@@ -157,6 +161,7 @@ def predict_tension(model, state, slack_strain, move, tension):
         tension[i + 1] = max(model.live[i + 1] * model.stiffness[i + 1] * strain, 0.0)
 
 
+@entry
 @kernel
 def balance(model, state, slack_strain, tension, force):
     """Forces (3, n) of the nodes with tensions (n,) of their own in place of the state's; returns the norm of the strains that these miss.
