@@ -52,7 +52,7 @@ def _share(model, z, elevation, waves, wet, part):
         wet[i] = 1.0 + share_left[i] * (part[i] - 1.0) + share_right[i] * (part[i + 1] - 1.0)
     for p in range(model.point_node.size):
         node = model.point_node[p]
-        if node >= model.size:
+        if node >= model.size or share_left[node] + share_right[node] > 0.0:  # merely held, or on a rod, whose segments count
             continue
         height = z[node] - waves * elevation[node]
         if model.point_diameter[p] > 0.0:
