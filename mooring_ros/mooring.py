@@ -9,6 +9,7 @@ import numpy as np
 from .arguments import checked_poses, checked_twists, numbers, shaped
 from .core import explicit
 from .core.bending_readings import curvature as curvature_of_nodes
+from .core.energy import energy
 from .core.failures import build_failures
 from .core.forces import evaluate_once
 from .core.ground import NO_CONTACT
@@ -17,7 +18,7 @@ from .core.layout import Layout
 from .core.linear import LinearResponse, linearise
 from .core.model import LOOSE, State, build, new_scratch, new_state
 from .core.readings import new_readings, observe
-from .core.schemes import step_table
+from .core.schemes import LEAPFROG, step_table
 from .core.stability import step_limit
 from .core.platform import rotate
 from .core.statics import StaticSolver
@@ -42,6 +43,7 @@ class Snapshot:
     readings: tuple = field(repr=False)
     settled: bool
     linear: LinearResponse | None = field(repr=False)
+    lengths: tuple
 
 
 class Mooring:
@@ -69,15 +71,16 @@ class Mooring:
         self.scene = scene if isinstance(scene, Scene) else load_scene(Path(scene))
         self.fidelity = fidelity
         self.solver = "explicit"
-        layout = Layout(self.scene)
-        self._model, ends = build(self.scene, None if segments is None else int(segments), layout)
+        self._wound = self.scene  # with the lengths that winches have given its lines
+        self._segments = None if segments is None else int(segments)
+        self._given_dt = dt
+        self._layout = layout = Layout(self.scene)
+        self._model, self._ends = build(self.scene, self._segments, layout)
         self._identity = hashlib.sha256(b"".join(_bytes(self._model))).hexdigest()
-        self._state = new_state(self._model, ends)
+        self._state = new_state(self._model, self._ends)
         self._scratch = new_scratch(self._model)
-        self._statics = StaticSolver(self.scene, self._model)
         self._readings = new_readings(self._model, 1)
-        self.step_limit = step_limit(self.scene, self._model, ends, dt)
-        self._table = step_table(self.step_limit.axial, self.step_limit.dt)
+        self._prepare()
         self.warnings = self.scene.warnings
         if dt is not None and dt > self.step_limit.dt:
             self.warnings += (f"dt = {dt:g} s is more than the largest step, {self.step_limit.dt:.4g} s ({self.step_limit.limited_by}), which is taken",)
@@ -91,6 +94,12 @@ class Mooring:
         self._body_parts = layout.body_parts
         self.coupled_names = layout.outputs  # coupled points, rods and bodies
         self.static_result = None
+
+    def _prepare(self):
+        """What depends on the model alone."""
+        self._statics = StaticSolver(self._wound, self._model)
+        self.step_limit = step_limit(self._wound, self._model, self._ends, self._given_dt)
+        self._table = step_table(self.step_limit.axial, self.step_limit.dt)
 
     # -- doing ------------------------------------------------------------------------------------------------------------------------
 
@@ -166,18 +175,55 @@ class Mooring:
             self._linear = self._linearised(self._linear.pose)
             self._linear.show(self._state, self.pose, self.twist, 0, self._readings)
         elif self._settled:
-            settings = self._state.settings
-            evaluate_once(self._model, self._state, self._scratch, settings[0], settings[1], bool(settings[2]))
-            observe(self._model, self._state, 0, self._readings)
+            self._read_again()
+
+    @property
+    def unstretched_length(self):
+        """(lines,) m."""
+        return np.array(self._lengths)
+
+    def set_unstretched_length(self, line_name, length):
+        """Give a line the unstretched length `length` (m), as a winch does: all its segments share the change, and its mass with it.
+
+        It takes effect at once: for a winch that turns, set before every step the length at its end. `Scene` stays as it was read.
+        Raises ValueError for an unknown line or a length that is not positive.
+        """
+        line = self._line(line_name)
+        length = float(shaped(length, (), "length", "metres"))
+        if not 0.0 < length < np.inf:
+            raise ValueError(f"length is {length!r}; expected a positive number of metres")
+        self._set_lengths((*self._lengths[:line], length, *self._lengths[line + 1 :]))
+        if self.fidelity == "linear" and self._settled:
+            self._linear = self._linearised(self._linear.pose)
+            self._linear.show(self._state, self.pose, self.twist, 0, self._readings)
+        elif self._settled:
+            self._read_again()
+
+    @property
+    def _lengths(self):
+        return tuple(line.length for line in self._wound.lines)
+
+    def _set_lengths(self, lengths):
+        """Build the model again for other unstretched lengths; what changes in a step stays."""
+        self._wound = replace(self._wound, lines=tuple(replace(line, length=own) for line, own in zip(self._wound.lines, lengths)))
+        self._model, _ = build(self._wound, self._segments, self._layout)
+        self._prepare()
+
+    def _read_again(self):
+        settings = self._state.settings
+        evaluate_once(self._model, self._state, self._scratch, settings[0], settings[1], bool(settings[2]))
+        observe(self._model, self._state, 0, self._readings)
 
     def snapshot(self):
         """A copy of everything that changes, for `restore`."""
-        return Snapshot(self._identity, _copy(self._state), tuple(array.copy() for array in self._readings), self._settled, self._linear)
+        return Snapshot(self._identity, _copy(self._state), tuple(array.copy() for array in self._readings), self._settled, self._linear, self._lengths)
 
     def restore(self, saved):
         """Go back to a snapshot of this mooring or one like it, bit for bit. Raises ValueError for one of another mooring."""
         if not isinstance(saved, Snapshot) or saved.mooring != self._identity:
             raise ValueError("this is not a snapshot of a mooring like this one")
+        if saved.lengths != self._lengths:
+            self._set_lengths(saved.lengths)
         _assign(self._state, saved.state)
         for mine, theirs in zip(self._readings, saved.readings):
             mine[:] = theirs
@@ -287,6 +333,13 @@ class Mooring:
         self._need_settled()
         state, _ = self._static_state(self._state.pose.copy())
         return self._statics.platform_stiffness(state, self._scratch)
+
+    @property
+    def energy(self):
+        """core.energy.Energy, J: kinetic, strain, bending, potential and their total, after a settle or a dynamic step."""
+        self._need_settled()
+        lead = 0.5 * self._state.settings[1] if self._table[0, 0] == LEAPFROG else 0.0  # its velocities stand half a step behind
+        return energy(self._model, self._state, lead)
 
     @property
     def last_step(self):
