@@ -12,13 +12,16 @@ def test_a_line_wound_in_slowly_ends_at_the_statics_of_its_new_length():
     mooring, target = (Mooring(anchored(kind, (-837.6, 0, -200), (-40.9, 0, -14), 835.35, 20, depth=200.0)) for _ in range(2))
     mooring.settle(HERE)
     before = mooring.fairlead_tension[0]
-    for k in range(1, 1201):
-        mooring.set_unstretched_length("line1", 835.35 - min(0.01 * k, 3.0))
+    tension = np.empty(4000)
+    for k in range(1, tension.size + 1):
+        if k <= 300:
+            mooring.set_unstretched_length("line1", 835.35 - 0.01 * k)
         mooring.step(0.1 * k, HERE, STILL)
+        tension[k - 1] = mooring.fairlead_tension[0]
     target.set_unstretched_length("line1", 832.35)
     target.settle(HERE)
     assert target.fairlead_tension[0] > 1.05 * before
-    assert mooring.fairlead_tension[0] == pytest.approx(target.fairlead_tension[0], rel=1e-3)
+    assert tension[2000:].mean() == pytest.approx(target.fairlead_tension[0], rel=5e-4)  # it swings on, drag being small at small speeds
 
 
 def test_weight_goes_with_the_length():
