@@ -31,6 +31,7 @@ FIDELITIES = ("dynamic", "quasi_static", "linear")
 SOLVERS = ("auto", "explicit")
 MOST_SEGMENTS = 100_000  # of a line
 MOST_STRAIN = 1.0  # of a line in motion, or twice that of the settled one
+NOT_AS_LAID = "statics with friction from the lines as laid did not converge: they hold on to the bed where they lie without friction"
 SWINGS, SWING_TIME = 30, 20.0  # s: how often and how long lines may swing where the statics do not converge at once
 
 
@@ -373,11 +374,14 @@ class Mooring:
             best = replace(best, tolerance=self._statics.acceptable, converged=True)
         if best.converged and remembers and not warm:
             state = _copy(best_state)
-            self._statics.lay_down(state)
-            laid = self._statics.solve(state, self._scratch)
-            best, best_state = replace(laid, iterations=laid.iterations + best.iterations), state
-            if best.residual <= self._statics.acceptable:
-                best = replace(best, converged=True)
+            laid = self._statics.pull_tight(state, self._scratch)
+            iterations = laid.iterations + best.iterations
+            if laid.residual <= self._statics.acceptable:
+                best, best_state = replace(laid, iterations=iterations, converged=True), state
+            else:
+                best = replace(best, iterations=iterations, as_laid=False)
+                if NOT_AS_LAID not in self.warnings:
+                    self.warnings += (NOT_AS_LAID,)
         if best.converged:
             if remembers:
                 self._statics.hold_on(best_state)

@@ -55,6 +55,26 @@ def lay(ground, model, end_point, position, grip):
                 waiting.extend(_lay_row(ground, model, row, start, place, grip))
 
 
+def move_to_laid(model, bed, position, grip):
+    """Move nodes that touch the bed to where they were laid, as deep as they are, and what hangs between them along with them.
+
+    A start for statics with friction: where lines lie without it may be far from there, downhill. `bed` is that of the positions.
+    """
+    moves = grip[:3] - position
+    moves[2] += position[2] - bed[0]
+    lies = (grip[3] != NO_CONTACT) & (position[2] < bed[0])
+    for first, count in zip(model.first_node, model.segments):
+        nodes = np.arange(first, first + count + 1)
+        known = lies[nodes]
+        moves[:, nodes[~known]] = 0.0
+        known[[0, -1]] = True
+        for k in range(3):
+            position[k, nodes] += np.interp(nodes, nodes[known], moves[k, nodes[known]])
+    for node in model.point_node[model.free_points]:
+        if lies[node]:
+            position[:, node] += moves[:, node]
+
+
 def _edges(model, end_point, position):
     """Lines, and links between the points of a rigid part that hold lines or the part itself."""
     edges = []

@@ -17,7 +17,7 @@ from .bending_tangent import bending_blocks, bending_pattern
 from .forces import evaluate_once
 from .freedom import Freedom, block_matrix
 from .ground import commit_grip, ground_blocks
-from .laying import lay
+from .laying import lay, move_to_laid
 from .layout import POINT_COUPLED, POINT_FIXED, POINT_RIDING
 from .model import LOOSE
 from .platform import rotate
@@ -29,6 +29,8 @@ TOLERANCE, ACCEPTABLE = 1e-9, 1e-6  # of the heaviest line's weight: what is ask
 OWN_TENSION_ITERATIONS = 60  # and one more for each segment of the longest line: nodes may leave the bed one by one
 DOWNHILL_ITERATIONS = 150
 SOFT_STRAINS, SOFT_TOLERANCE = (0.1, 0.01), 1e-4  # under the line's weight; of the weight
+FRICTION_GROWTH, LEAST_GROWTH = 2.5, 1.05  # of the friction's stiffness from stage to stage
+SOFT_YIELD = 0.1  # of a segment's length: over which the softest friction lets a line slide
 LEAST_DAMPING = 1e-13
 STIFFNESS_DAMPING = 1e-10  # carries slack parts where the stiffness is read
 SMALLEST_SHARE = 0.01  # of a step
@@ -39,12 +41,16 @@ STRAIN_SCALE = 10.0  # a strain of 10 % counts like a force of the line's weight
 
 @dataclass(frozen=True)
 class StaticResult:
-    """How a static solution ended: iterations, largest out-of-balance force on a node (N), the force asked for (N), converged."""
+    """How a static solution ended: iterations, largest out-of-balance force on a node (N), the force asked for (N), converged.
+
+    as_laid: False where friction that remembers does not begin with the lines as they were laid, but where they lie without friction.
+    """
 
     iterations: int
     residual: float
     tolerance: float
     converged: bool
+    as_laid: bool = True
 
 
 class StaticSolver:
@@ -130,26 +136,40 @@ class StaticSolver:
 
     def solve(self, state, scratch):
         """Newton from the present positions (and tensions); returns a StaticResult. Positions are the best found, velocities zero."""
+        goal, best = self._begin(state, scratch), _Best()
+        iterations = self._with_own_tensions(state, scratch, goal, best)
+        if best.residual > goal and (state.grip[3:] >= 0.0).any():
+            best.take(state, first=True)
+            iterations += self._mobilise(state, scratch, goal, best)
+        elif best.residual > goal:
+            iterations += self._by_softening(state, scratch, goal, best)
+        return self._end(state, scratch, iterations, goal, best)
+
+    def pull_tight(self, state, scratch):
+        """From a solution without friction to the one with friction that remembers, the lines pulled tight from where they were laid."""
+        goal, best = self._begin(state, scratch), _Best()
+        self._evaluate(state, scratch)
+        lay(self.model.ground, self.model, state.end_point, state.position, state.grip)
+        move_to_laid(self.model, self._bed, state.position, state.grip)
+        iterations = self._mobilise(state, scratch, goal, best)
+        return self._end(state, scratch, iterations, goal, best)
+
+    def _begin(self, state, scratch):
+        """Everything at rest and ready; returns the force asked for (N)."""
         if self._held is None or (self._held != state.end_point).any():
             self._freedom, self._held = Freedom(self.model, state), state.end_point.copy()
         self._bed = scratch.bed
         state.settings[:6] = (0.0, 0.0, 1.0, 1.0, 0.0, np.inf)
         state.settings[7] = 1.0
         state.bed_relief[:] = 1.0
-        goal = max(self.tolerance, self._rounding(state))
-        best = _Best()
-        iterations = self._with_own_tensions(state, scratch, goal, best)
-        if best.residual > goal:
-            iterations += self._by_softening(state, scratch, goal, best)
+        return max(self.tolerance, self._rounding(state))
+
+    def _end(self, state, scratch, iterations, goal, best):
         best.take(state)
         residual = self._evaluate(state, scratch)
         settle_creep(self.model.ropes, state.tension, state.creep)
         state.settings[7] = 0.0
         return StaticResult(iterations, residual, goal, bool(residual <= goal))
-
-    def lay_down(self, state):
-        """Let the lines lie as they were laid, for friction that remembers: pulled tight from there they settle with it."""
-        lay(self.model.ground, self.model, state.end_point, state.position, state.grip)
 
     def hold_on(self, state):
         """Let the nodes hold on to the bed where they are, as far as friction goes; after `solve`."""
@@ -204,6 +224,47 @@ class StaticSolver:
         missed = balance(self.model, state, self._slack_strain, tension, self.move)
         force = self._sizes(state, self.move) / self.weight
         return float(np.hypot(np.sqrt((force**2).sum()), STRAIN_SCALE * missed))
+
+    def _mobilise(self, state, scratch, goal, best):
+        """Friction that remembers, soft at first, so that all slide over a share of a segment, and stiffer from stage to stage.
+
+        Friction is mobilised within less than a millimetre: from farther away Newton sees nothing but sliding nodes.
+        """
+        full, last = self.model, None
+        stiffest, ratio, growth, iterations = full.ground.stiffness_ratio, self._softest_friction(), FRICTION_GROWTH, 0
+        try:
+            while True:
+                self.model = full._replace(ground=full.ground._replace(stiffness_ratio=float(ratio)))
+                stage, wanted = (best, goal) if ratio == stiffest else (_Best(), SOFT_TOLERANCE * self.weight)
+                self._evaluate(state, scratch)
+                iterations += self._with_own_tensions(state, scratch, wanted, stage)
+                if stage.residual > wanted and last is None:
+                    iterations += self._by_softening(state, scratch, wanted, stage)
+                if stage.residual <= wanted:
+                    stage.take(state)
+                    self._evaluate(state, scratch)
+                    last = ratio, _configuration(state), state.tension.copy()
+                elif last is None or growth < LEAST_GROWTH:
+                    best.keep(np.inf, state)
+                    return iterations
+                else:
+                    growth = np.sqrt(growth)
+                    (state.position[:], state.parts[:]), state.tension[:] = last[1:]
+                if last[0] == stiffest:
+                    return iterations
+                ratio = min(last[0] * growth, stiffest)
+        finally:
+            self.model = full
+
+    def _softest_friction(self):
+        """Tangential over normal stiffness of the bed with which lines slide over SOFT_YIELD."""
+        model, ground = self.model, self.model.ground
+        lying = np.flatnonzero((model.bed_stiffness * (model.share_left + model.share_right) > 0.0) & (model.mass > 0.0))
+        if not lying.size:
+            return ground.stiffness_ratio
+        friction = max(ground.kinetic_axial, ground.kinetic_across) * np.abs(model.weight[lying] - model.buoyancy[lying])
+        softest = (friction / (model.bed_stiffness[lying] * SOFT_YIELD * np.maximum(model.length[lying], model.length[lying + 1]))).max()
+        return min(max(softest, 1e-6 * ground.stiffness_ratio), ground.stiffness_ratio)
 
     def _by_softening(self, state, scratch, goal, best):
         """Downhill with lines soft enough to move far, then stiffened stage by stage: each finds the next one's shape and tensions."""
