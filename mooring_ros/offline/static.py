@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from .angles import roll_pitch_yaw
 from .arguments import load_mooring, pose
 from .console import ComputationFailed, print_json, table
 
@@ -58,13 +59,27 @@ def solve(scene, pose):
         "stiffness": np.asarray(stiffness).tolist(),
         "residual": float(found.residual),
         "iterations": int(found.iterations),
+        **_parts(mooring),
+    }
+
+
+def _parts(mooring):
+    """Where rods and bodies are, and what each coupled part hands to the platform; nothing for a scene of points and lines alone."""
+    scene = mooring.scene
+    if not (scene.rods or scene.bodies):
+        return {}
+    wrenches = zip(mooring.coupled_names, mooring.coupled_wrenches.tolist())
+    return {
+        "rods": [dict(zip(("name", "end_a", "end_b"), (rod.name, *mooring.rod_positions(rod.name).tolist()))) for rod in scene.rods],
+        "bodies": [{"name": name, "position": pose[:3].tolist(), "quaternion": pose[3:].tolist()} for name, pose in mooring.body_poses.items()],
+        "coupled": [{"name": name, "force": wrench[:3], "torque": wrench[3:]} for name, wrench in wrenches],
     }
 
 
 def _text(scene, solution):
     wrench = [*solution["wrench"]["force"], *solution["wrench"]["torque"]]
     ends = [
-        [line["name"], end, _number(line[f"{end}_tension"]), *map(_number, line[f"{end}_end_force"])]
+        [line["name"], end, _number(line[f"{end}_tension"]), *map(_number, _without_rounding(line[f"{end}_end_force"]))]
         for line in solution["lines"]
         for end in ("fairlead", "anchor")
     ]
@@ -76,16 +91,42 @@ def _text(scene, solution):
             table(["line", "end", "tension", "fx", "fy", "fz"], ends),
             "",
             "On the platform, about its reference point, world axes (N, N·m)",
-            table(["fx", "fy", "fz", "mx", "my", "mz"], [map(_number, wrench)]),
+            table(["fx", "fy", "fz", "mx", "my", "mz"], [map(_number, _by_halves(wrench))]),
             "",
+            *_parts_text(solution),
             "Stiffness −∂wrench/∂pose (N/m, N/rad, N·m/m, N·m/rad)",
             table(["", *_AXES], [[name, *map(_number, row)] for name, row in zip(_AXES, _without_rounding(solution["stiffness"]))]),
         ]
     )
 
 
+def _parts_text(solution):
+    if "rods" not in solution:
+        return []
+    coupled = [[part["name"], *map(_number, _by_halves(part["force"] + part["torque"]))] for part in solution["coupled"]]
+    rods = [[rod["name"], *map(_number, _without_rounding(rod["end_a"] + rod["end_b"]))] for rod in solution["rods"]]
+    bodies = [
+        [body["name"], *map(_number, _without_rounding(body["position"])), *map(_number, _degrees(body["quaternion"]))] for body in solution["bodies"]
+    ]
+    tables = (
+        ("Of it, at each coupled point, rod (its end A) and body (its origin)", ["", "fx", "fy", "fz", "mx", "my", "mz"], coupled),
+        ("Rods: ends A and B (m)", ["rod", "xa", "ya", "za", "xb", "yb", "zb"], rods),
+        ("Bodies: origin (m); roll, pitch, yaw about the fixed axes (degrees)", ["body", "x", "y", "z", "roll", "pitch", "yaw"], bodies),
+    )
+    return [text for title, headers, rows in tables if rows for text in (title, table(headers, rows), "")]
+
+
+def _degrees(quaternion):
+    return np.degrees(roll_pitch_yaw(np.array([quaternion])))[0].round(9).tolist()
+
+
+def _by_halves(wrench):
+    """A wrench (6,) with zeros where only rounding is left, forces and moments each by their own size."""
+    return _without_rounding(wrench[:3]) + _without_rounding(wrench[3:])
+
+
 def _without_rounding(matrix):
-    """The matrix with zeros where only rounding is left, for the eye."""
+    """The numbers with zeros where only rounding is left, for the eye."""
     matrix = np.array(matrix)
     return np.where(np.abs(matrix) < 1e-12 * np.abs(matrix).max(), 0.0, matrix).tolist()
 

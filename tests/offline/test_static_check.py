@@ -7,6 +7,39 @@ from mooring_ros.mooring import Mooring
 from mooring_ros.offline.arguments import pose
 
 POSE = "-3,1,0.5,2,-4,10"
+WITH_PARTS = """\
+A chain, a cable clamped to a hang-off, and a body on the platform
+--- LINE TYPES ---
+Name  Diam  Mass/m  EA  BA/-zeta  EI  Cd  Ca  CdAx  CaAx
+(-)  (m)  (kg/m)  (N)  (N-s/-)  (N-m2)  (-)  (-)  (-)  (-)
+chain  0.05  50  2.0e7  -0.8  0  2.0  0.8  0.4  0.25
+cable  0.10  20  5.0e7  -0.5  5e3  1.0  1.0  0.1  0.0
+--- ROD TYPES ---
+Name  Diam  Mass/m  Cd  Ca  CdEnd  CaEnd
+(-)  (m)  (kg/m)  (-)  (-)  (-)  (-)
+pipe  0.3  120  0.6  1.0  1.0  1.0
+--- BODIES ---
+ID  Attachment  X  Y  Z  r  p  y  Mass  CG  I  Volume  CdA  Ca
+(-)  (-)  (m)  (m)  (m)  (deg)  (deg)  (deg)  (kg)  (m)  (kg-m2)  (m3)  (m2)  (-)
+1  Coupled   -22  0  -6   0  0  0  500   0     1e2  0.2  1  0.5
+--- RODS ---
+ID  Type  Attachment  Xa  Ya  Za  Xb  Yb  Zb  NumSegs  Outputs
+(-)  (-)  (-)  (m)  (m)  (m)  (m)  (m)  (m)  (-)  (-)
+1  pipe  Coupled  0  10  -5  0  11.5  -7  2  -
+--- POINTS ---
+ID  Type  X  Y  Z  Mass  Volume  CdA  Ca
+(-)  (-)  (m)  (m)  (m)  (kg)  (m3)  (m2)  (-)
+3  Fixed   150  0  -60  0  0  0  0
+4  Coupled   20  0   -5  0  0  0  0
+5  Fixed   0  110  -60  0  0  0  0
+--- LINES ---
+ID  LineType  AttachA  AttachB  UnstrLen  NumSegs  Outputs
+(-)  (-)  (-)  (-)  (m)  (-)  (-)
+2  chain  3  4  145  6  -
+3  cable  R1B  5  125  14  -
+--- OPTIONS ---
+60  WtrDpth
+"""
 
 
 def test_static_json_has_the_keys_of_the_contract_and_no_others(scene, mooring):
@@ -29,6 +62,21 @@ def test_static_json_holds_the_bits_of_the_facade(scene, mooring):
     assert [line["anchor_end_force"] for line in found["lines"]] == moored.anchor_end_force.tolist()
     assert found["wrench"]["force"] + found["wrench"]["torque"] == moored.wrench.tolist()
     assert found["stiffness"] == moored.stiffness().tolist()
+
+
+def test_static_shows_where_rods_and_bodies_are_and_what_each_coupled_part_hands_on(mooring, tmp_path):
+    (tmp_path / "deck.txt").write_text(WITH_PARTS)
+    outcome = mooring("static", tmp_path / "deck.txt", "--pose", "1,0,0,0,0,5", "--json")
+    found = outcome.json()
+    moored = Mooring(tmp_path / "deck.txt")
+    moored.settle(pose("1,0,0,0,0,5"))
+    assert [part["name"] for part in found["coupled"]] == moored.coupled_names == ["point4", "rod1", "body1"]
+    assert [part["force"] + part["torque"] for part in found["coupled"]] == moored.coupled_wrenches.tolist()
+    assert [rod["end_b"] for rod in found["rods"]] == [moored.rod_positions(name)[1].tolist() for name in ("rod1",)]
+    assert found["bodies"][0]["position"] + found["bodies"][0]["quaternion"] == moored.body_poses["body1"].tolist()
+    text = mooring("static", tmp_path / "deck.txt").out
+    for heading in ("Of it, at each coupled point, rod", "Rods: ends A and B (m)", "Bodies: origin (m)"):
+        assert heading in text
 
 
 def test_the_platform_is_pulled_down_and_back(scene, mooring):
