@@ -14,7 +14,7 @@ import numpy as np
 from mooring_ros.scene import load_scene
 from mooring_ros.scene.description import STICK
 
-from . import ours, tables
+from . import figures, ours, tables
 from .motions import Circle
 
 SCENE = Path(__file__).parent.parent / "config" / "scenes" / "chalmers_33m.txt"
@@ -113,4 +113,18 @@ def run(quick=False):
     content = {"bergdahl": main, "bergdahl_convergence": changes}
     print("\n\n".join(content.values()), flush=True)
     failed = [f"Bergdahl 2016: mean absolute error {100 * error:.1f} %, goal {100 * GOAL:.0f} %"] if error > GOAL else []
-    return {"rows": rows, "mean_absolute_error": error, "mean_error": bias(rows), "cpu": cpu, "tables": content, "failed": failed}
+    return {"rows": rows, "mean_absolute_error": error, "mean_error": bias(rows), "cpu": cpu, "tables": content, "failed": failed, "figures": {"bergdahl.png": picture(rows)}}
+
+
+def picture(rows):
+    """Computed over measured maxima, with the accuracy to which they were read."""
+    figure, grid = figures.axes(height=4.2)
+    ends = np.array([25.0, 75.0])
+    grid[0, 0].fill_between(ends, 0.95 * ends, 1.05 * ends, color=figures.COLOURS[0], alpha=0.12, linewidth=0, label="read to 5 %")
+    grid[0, 0].plot(ends, ends, color=figures.COLOURS[0], linewidth=0.8)
+    for colour, period in zip(figures.COLOURS, sorted({row["period"] for row in rows}), strict=False):
+        chosen = [row for row in rows if row["period"] == period]
+        grid[0, 0].plot([r["measured"] for r in chosen], [r["computed"] for r in chosen], "o", color=colour, markersize=4.5, label=f"{period:g} s")
+    grid[0, 0].set(xlabel="measured (N)", ylabel="computed (N)", xlim=ends, ylim=ends, aspect="equal")
+    figures.legend(figure, grid[0, 0])
+    return figure

@@ -24,4 +24,4 @@ def axes(rows=1, columns=1, height=3.2, **options):
 def legend(figure, axis):
     """One legend for the whole figure, above it, of what stands in one of its axes."""
     handles, labels = axis.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper center", ncols=min(len(labels), 6), frameon=False, fontsize=9)
+    figure.legend(handles, labels, loc="outside upper center", ncols=min(len(labels), 7), frameon=False, fontsize=9)
