@@ -6,7 +6,6 @@ the sum of end force times speed, from the readings alone.
 
 import numpy as np
 
-from mooring_ros.core.bending_readings import bending_energy
 from mooring_ros.mooring import Mooring
 from mooring_ros.scene.description import COUPLED, FIXED, Environment, Line, LineType, Point, Rod, RodEnd, RodType, Scene
 
@@ -30,17 +29,9 @@ def scene():
 
 
 def energies(mooring):
-    """{name: J} of all nodes, segments and hinges now."""
-    model, state = mooring._model, mooring._state
-    last = model.size
-    stretch = np.linalg.norm(np.diff(state.position[:, : last + 1], axis=1), axis=0) - model.length[1 : last + 1]
-    strain = 0.5 * (model.live * model.stiffness * model.inverse_length)[1 : last + 1] * np.maximum(stretch, 0.0) ** 2
-    return {
-        "kinetic": 0.5 * (model.mass[:last] * (state.velocity[:, :last] ** 2).sum(axis=0)).sum(),
-        "strain": strain.sum(),
-        "bending": bending_energy(model.bending, model.size, state.tangent, state.end_point, state.clamp_axis),
-        "potential": (model.weight[:last] * state.position[2, :last]).sum(),
-    }
+    """{name: J} now."""
+    held = mooring.energy
+    return {name: getattr(held, name) for name in ("kinetic", "strain", "bending", "potential")}
 
 
 def account(share=None, motion=MOTION):
