@@ -66,7 +66,7 @@ class Diagnostics:
             return self._status("core", OK, lifecycle, values)
         output, mooring = session.output, session.mooring
         limited = sum(output.limited.values())
-        values |= {"mooring": session.state, "steps": session.steps, "unanswered": session.unanswered,
+        values |= {"mooring": session.state, "steps": session.steps, "unanswered": session.unanswered, "unstretched lengths refused": session.unwound,
                    **{f"{name} limit reached": count for name, count in output.limited.items()}}
         if session.wrenches is not None:
             values |= {"time (s)": f"{mooring.time:.3f}", "largest fairlead tension (N)": f"{mooring.fairlead_tension.max():.6g}"}

@@ -21,6 +21,7 @@ from mooring_ros.node.output import Output
 from mooring_ros.node.outputs import Outputs
 from mooring_ros.node.session import RUNNING, Session
 from mooring_ros.node.timing import Durations, FixedRate
+from mooring_ros.node.winch import Winch
 from mooring_ros.recording.attached import AttachedScene
 from mooring_ros.recording.errors import RecordingError
 from mooring_ros.recording.writer import RecordingWriter
@@ -49,7 +50,7 @@ class MooringNode(LifecycleNode):
 
     def __init__(self, **keywords):
         super().__init__("mooring", **keywords)
-        self._session = self._inputs = self._outputs = self._recorder = self._mooring = self._adapter = None
+        self._session = self._inputs = self._winch = self._outputs = self._recorder = self._mooring = self._adapter = None
         self._own_services = []
         self._timer = self._rate = None
         self._problem = ""
@@ -91,6 +92,7 @@ class MooringNode(LifecycleNode):
             self._rate = FixedRate(values["timing.rate"])
             self._timer = self.create_timer(1.0 / values["timing.rate"], self._tick, clock=self._steady)
         self._inputs = Inputs(self, values["input"], values["twist_frame"], gate, self._take)
+        self._winch = Winch(self, self._wind)
         # Nothing of this start is garbage, and a collection in the middle of an answer would delay it: from here on, once a second.
         gc.collect()
         gc.freeze()
@@ -175,12 +177,13 @@ class MooringNode(LifecycleNode):
     def _end_session(self):
         if self._inputs is not None:
             self._inputs.destroy()
+            self._winch.destroy()
         if self._timer is not None:
             self.destroy_timer(self._timer)
         if self._session is not None:
             gc.enable()
             gc.unfreeze()
-        self._inputs = self._timer = self._rate = self._session = None
+        self._inputs = self._winch = self._timer = self._rate = self._session = None
 
     def _take_down(self):
         self._end_session()
@@ -214,6 +217,17 @@ class MooringNode(LifecycleNode):
         # A refused stamp may be anything: on the recording's time axis it stands beside the last good one.
         good = last.stamp if last is not None else stamp or 0
         outputs.record_input(topic, type_name, data, stamp if sample is not None and answers == stamp else good, stamp if stamp is not None else good)
+        self._after()
+
+    def _wind(self, lengths, words, topic, type_name, data):
+        session, last = self._session, self._session.gate.last
+        if lengths is not None:
+            _, words = session.wind(lengths)
+        if words:
+            session.unwound += 1
+            self.get_logger().warning(f"unstretched lengths refused, {session.unwound} so far, the last: {words}", throttle_duration_sec=5.0)
+        stamp = last.stamp if last is not None else 0
+        self._outputs.record_input(topic, type_name, data, stamp, stamp)
         self._after()
 
     def _tick(self):

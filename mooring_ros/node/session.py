@@ -22,13 +22,13 @@ class Session:
 
     mooring: a fresh `Mooring`. gate, output, check: see motion.Gate, node.output.Output, motion.ConventionCheck (None: the source has no twist).
     state: waiting, running, failed (the core could not complete a step, or settle) or refused (the twist is in another convention); cause: why.
-    Only `settle` leads out of failed and refused. wrenches: (1 + coupled, 6), row 0 the total, inside, as they go out now.
+    unwound: messages with unstretched lengths that were refused. Only `settle` leads out of failed and refused. wrenches: (1 + coupled, 6), row 0 the total, inside, as they go out now.
     """
 
     def __init__(self, mooring, gate, output, check=None):
         self.mooring, self.gate, self.output, self.check = mooring, gate, output, check
         self.state, self.cause = WAITING, ""
-        self.steps = self.unanswered = 0
+        self.steps = self.unanswered = self.unwound = 0
         self.wrenches = None
         self.clock = SourceClock()
         self._actions = []
@@ -114,6 +114,24 @@ class Session:
             return False, str(error)
         self._act(self._stepped, schedule.encode_release, self.mooring.time, self.mooring.line_names.index(line))
         return True, f"{line} released at its fairlead"
+
+    def wind(self, lengths):
+        """Give lines new unstretched lengths, dict of name -> m at the source's scale; all or none. Returns (success, words)."""
+        if self.state != RUNNING:
+            return False, f"cannot wind {', '.join(lengths)}: {self.state}"
+        names, factor = self.mooring.line_names, 1.0 / self.gate.adapter.length_factor
+        for name, length in lengths.items():
+            if name not in names:
+                return False, f"there is no line {name!r}, expected one of {', '.join(names)}"
+            if not 0.0 < length < math.inf:
+                return False, f"unstretched length of {name} is {length:g} m, expected a positive number"
+        for name, length in lengths.items():
+            try:
+                self.mooring.set_unstretched_length(name, factor * length)
+            except (MooringError, ValueError) as error:
+                return False, f"{name}: {error}"
+            self._act(self._stepped, schedule.encode_wind, self.mooring.time, names.index(name), factor * length)
+        return True, ""
 
     # --- after the answer ---
 

@@ -55,7 +55,7 @@ def _scheduled(recording, topic, remarks):
         except ValueError as error:
             raise ValueError(f"{recording.path}: topic {topic}: message {len(actions) + 1}: {error}") from error
         stamps.append(entry.log_time)
-    moves = [index for index, action in enumerate(actions) if action.kind != schedule.RELEASE]
+    moves = [index for index, action in enumerate(actions) if action.kind in schedule.MOVES]
     if not moves:
         raise ValueError(f"{recording.path}: the step schedule {topic} has no step, expected at least a settle")
     return Motion(

@@ -11,13 +11,13 @@ from .stamps import times_of
 
 @dataclass(frozen=True)
 class Done:
-    """What was just done to the mooring, which now stands at its answer (a release has none).
+    """What was just done to the mooring, which now stands at its answer (only settles and steps have one).
 
     stamp: ns, of the source; time: s, for tables, by the source's clock; record: as in the schedule (15 floats); pose (7,), twist (6,): of the
-    platform by the source, world axes, None for a release.
+    platform by the source, world axes, None for what is done to a line.
     """
 
-    kind: int  # schedule.SETTLE, STEP or RELEASE
+    kind: int  # of schedule.KINDS
     stamp: int
     time: float
     record: list
@@ -55,6 +55,9 @@ def run_schedule(mooring, actions, stamps, time_factor):
         elif action.kind == schedule.STEP:
             mooring.step(action.time, action.pose, action.twist)
             record = schedule.encode_step(action.time, action.pose, action.twist)
+        elif action.kind == schedule.WIND:
+            mooring.set_unstretched_length(_line_name(mooring, action.line), action.length)
+            record = schedule.encode_wind(action.time, action.line, action.length)
         else:
             mooring.release(_line_name(mooring, action.line))
             record = schedule.encode_release(action.time, action.line)
@@ -63,5 +66,5 @@ def run_schedule(mooring, actions, stamps, time_factor):
 
 def _line_name(mooring, index):
     if index >= len(mooring.line_names):
-        raise ValueError(f"the step schedule releases line {index + 1} of the scene, expected one of its {len(mooring.line_names)}")
+        raise ValueError(f"the step schedule names line {index + 1} of the scene, expected one of its {len(mooring.line_names)}")
     return mooring.line_names[index]

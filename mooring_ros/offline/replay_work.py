@@ -18,6 +18,7 @@ from .replay_output import Answer, CsvOutput, McapOutput, ODOMETRY, PLATFORM_FRA
 from .replay_run import run_motion, run_schedule
 from .resample import resample
 
+WINCHES = "/unstretched_lengths"
 INPUT_TYPES = (ODOMETRY, "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/TwistStamped")
 
 
@@ -47,7 +48,7 @@ def replay(args, mooring, motion, settings):
         recording = Recording(motion.path)
         topics = {topic: kind for topic, (kind, _) in recording.topics().items()}
         identical = Identical(recording.messages([topic for topic in topics if topic.endswith(TENSIONS)]))
-        inputs = recording.messages([topic for topic, kind in topics.items() if kind in INPUT_TYPES])
+        inputs = recording.messages([topic for topic, kind in topics.items() if kind in INPUT_TYPES or topic.endswith(WINCHES)])
         steps = run_schedule(mooring, motion.schedule, motion.schedule_stamps, adapter.time_factor)
     else:
         steps = run_motion(mooring, *_samples(args, motion))
@@ -56,7 +57,7 @@ def replay(args, mooring, motion, settings):
         try:
             for done in steps:
                 outputs.write_inputs(inputs, done)
-                if done.kind != schedule.RELEASE:
+                if done.kind in schedule.MOVES:
                     answer = _answer(mooring, composed, adapter, done)
                     outputs.write(answer, mooring, composed)
                     if identical:

@@ -2,15 +2,16 @@
 
 One record for each thing done, 15 doubles: kind, t, pose (x, y, z, qx, qy, qz, qw), twist (vx, vy, vz, wx, wy, wz).
 The doubles are exactly those that were passed to `Mooring`. A release carries the line's index in the third
-place and zeros after it; a settle has no twist. Published on `<node>/steps` as std_msgs/Float64MultiArray; the stamp
+place and zeros after it, a change of a line's unstretched length the index and the length in m; a settle has no twist. Published on `<node>/steps` as std_msgs/Float64MultiArray; the stamp
 of the input is the message's log and publish time.
 """
 from dataclasses import dataclass
 
 import numpy as np
 
-SETTLE, STEP, RELEASE = 0, 1, 2
-KINDS = ('settle', 'step', 'release')
+SETTLE, STEP, RELEASE, WIND = 0, 1, 2, 3
+KINDS = ('settle', 'step', 'release', 'wind')
+MOVES = (SETTLE, STEP)               # the platform; each has an answer
 LENGTH = 15
 TOPIC_SUFFIX = '/steps'
 TYPE_NAME = 'std_msgs/msg/Float64MultiArray'
@@ -18,13 +19,14 @@ TYPE_NAME = 'std_msgs/msg/Float64MultiArray'
 
 @dataclass(frozen=True)
 class Action:
-    """One thing done to the core. time: s; pose (7,), twist (6,): world frame, None for a release; line: index."""
+    """One thing done to the core. time: s; pose (7,), twist (6,): world frame, None for what is done to a line; line: index; length: m, unstretched."""
 
     kind: int
     time: float
     pose: np.ndarray | None = None
     twist: np.ndarray | None = None
     line: int | None = None
+    length: float | None = None
 
 
 def encode_settle(time, pose):
@@ -42,6 +44,11 @@ def encode_release(time, line):
     return [float(RELEASE), float(time), float(line)] + [0.0] * (LENGTH - 3)
 
 
+def encode_wind(time, line, length):
+    """15 floats for the unstretched length `length` (m) given to the line with index `line` at `time`."""
+    return [float(WIND), float(time), float(line), float(length)] + [0.0] * (LENGTH - 4)
+
+
 def _pack(kind, time, pose, twist):
     pose, twist = np.asarray(pose, dtype=float), np.asarray(twist, dtype=float)
     if pose.shape != (7,) or twist.shape != (6,):
@@ -57,11 +64,12 @@ def decode(data):
     if not np.all(np.isfinite(data)):
         raise ValueError('step schedule record has a number that is not finite')
     kind, time = data[0], float(data[1])
-    if kind == RELEASE:
-        line = data[2]
-        if line < 0 or line != int(line) or np.any(data[3:]):
-            raise ValueError(f'step schedule: release of line {line:g}: expected an index and zeros after it')
-        return Action(RELEASE, time, line=int(line))
-    if kind not in (SETTLE, STEP):
-        raise ValueError(f'step schedule record of kind {kind:g}: expected 0 (settle), 1 (step) or 2 (release)')
+    if kind in (RELEASE, WIND):
+        line, length = data[2], data[3]
+        if line < 0 or line != int(line) or np.any(data[4:]) or (length != 0.0 if kind == RELEASE else length <= 0.0):
+            expected = 'an index' if kind == RELEASE else 'an index, a length'
+            raise ValueError(f'step schedule: {KINDS[int(kind)]} of line {line:g}: expected {expected} and zeros after it')
+        return Action(int(kind), time, line=int(line), length=float(length) if kind == WIND else None)
+    if kind not in MOVES:
+        raise ValueError(f'step schedule record of kind {kind:g}: expected 0 (settle), 1 (step), 2 (release) or 3 (wind)')
     return Action(int(kind), time, pose=data[2:9], twist=data[9:15])

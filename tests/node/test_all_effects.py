@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from geometry_msgs.msg import WrenchStamped
 from node_peer import node_and_peer, numbers
+from sensor_msgs.msg import JointState
 from visualization_msgs.msg import MarkerArray
 
 SCENE = """\
@@ -86,7 +87,12 @@ def recorded(tmp_path_factory):
             peer.listen(WrenchStamped, f"mooring/fairleads/{name}/wrench", messages.append)
         peer.listen(MarkerArray, "mooring/markers", shown.append)
         peer.spin(0.5)
-        wrenches = np.array([peer.ask(t, *surge(t)) for t in TIMES])
+        winch = peer.node.create_publisher(JointState, "mooring/unstretched_lengths", 10)
+        peer.wait(winch.get_subscription_count, what="the winch")
+        wrenches = [peer.ask(t, *surge(t)) for t in TIMES[:-5]]
+        winch.publish(JointState(name=["line5"], position=[119.5]))
+        peer.spin(0.3)
+        wrenches = np.array(wrenches + [peer.ask(t, *surge(t)) for t in TIMES[-5:]])
         peer.wait(lambda: all(len(messages) == len(TIMES) for messages in heard.values()), what="all wrenches")
         process.end()
         log = (folder / "node.log").read_text(encoding="utf-8")
@@ -111,6 +117,12 @@ def test_a_failed_line_pulls_no_more(recorded):
     pull = np.linalg.norm(parts["point4"][:, :3], axis=1)
     before, after = np.array(TIMES) < 0.6, np.array(TIMES) > 0.66
     assert pull[before].min() > 1e3 and pull[after].max() < 1.0
+
+
+def test_a_line_that_is_wound_in_pulls_more(recorded):
+    _, parts, _, _ = recorded
+    pull = np.linalg.norm(parts["point7"][:, :3], axis=1)
+    assert pull[-5:].min() > 1.05 * pull[:-5].max()
 
 
 def test_markers_show_rods_bodies_and_the_mesh_of_the_bed(recorded):

@@ -46,6 +46,22 @@ def test_the_schedule_done_again_gives_the_same_bits(session):
     assert session.actions() == []
 
 
+def test_lengths_are_wound_at_the_sources_scale_recorded_and_all_or_none():
+    session = Session(Mooring(SCENE), Gate(Adapter(scale=50.0)), Output())
+    assert session.wind({"line1": 16.0}) == (False, "cannot wind line1: waiting for input")
+    session.take(sample(0), None)
+    before = session.mooring.unstretched_length
+    for lengths, words in (({"line1": 16.0, "line9": 16.0}, "no line 'line9'"), ({"line2": 16.0, "line1": -1.0}, "line1 is -1 m"), ({"line1": np.nan}, "nan")):
+        done, said = session.wind(lengths)
+        assert not done and words in said
+    np.testing.assert_array_equal(session.mooring.unstretched_length, before)
+    assert session.wind({"line1": 16.6, "line3": 16.8})[0]
+    np.testing.assert_allclose(session.mooring.unstretched_length, [830.0, before[1], 840.0])
+    winds = [schedule.decode(record) for _, record in session.actions()][1:]
+    wound = session.mooring.unstretched_length
+    assert [(wind.kind, wind.line, wind.length) for wind in winds] == [(schedule.WIND, 0, wound[0]), (schedule.WIND, 2, wound[2])]
+
+
 def test_ticks_carry_the_motion_on_and_stop_past_the_horizon(session):
     assert session.tick(0) is None
     assert session.observe(sample(0, 0.0, 2.0), None, 1000 * MS) == 0

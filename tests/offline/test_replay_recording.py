@@ -105,4 +105,4 @@ def test_a_release_of_a_line_that_the_scene_does_not_have_is_bad_input(scene, mo
     records = [schedule.encode_settle(0.0, POSES[0]), schedule.encode_release(0.0, 7)]
     record(tmp_path / "run.mcap", scene, {"fidelity": "dynamic", "dt": 0.0, "segments": 0}, records, [10**9, 10**9])
     outcome = mooring("replay", scene, tmp_path / "run.mcap", "-o", tmp_path / "out.mcap")
-    assert outcome.status == 2 and "releases line 8" in outcome.err and "Traceback" not in outcome.err
+    assert outcome.status == 2 and "names line 8" in outcome.err and "Traceback" not in outcome.err

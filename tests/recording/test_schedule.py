@@ -27,9 +27,15 @@ def test_settle_and_release_come_back():
     assert (release.kind, release.time, release.line, release.pose) == (schedule.RELEASE, 7.25, 2, None)
 
 
+def test_a_change_of_unstretched_length_comes_back_with_every_bit():
+    wind = schedule.decode(through_cdr(schedule.encode_wind(7.25, 2, 0.1 + 0.2)))
+    assert (wind.kind, wind.time, wind.line, wind.length, wind.pose) == (schedule.WIND, 7.25, 2, 0.1 + 0.2, None)
+
+
 @pytest.mark.parametrize('data, message', [
-    ([0.0] * 14, '14 numbers'), ([3.0] + [0.0] * 14, 'kind 3'), ([float('nan')] * 15, 'not finite'),
-    ([2.0, 0.0, 1.5] + [0.0] * 12, 'line 1.5'), ([2.0, 0.0, 1.0] + [0.5] * 12, 'zeros')])
+    ([0.0] * 14, '14 numbers'), ([4.0] + [0.0] * 14, 'kind 4'), ([float('nan')] * 15, 'not finite'),
+    ([2.0, 0.0, 1.5] + [0.0] * 12, 'line 1.5'), ([2.0, 0.0, 1.0] + [0.5] * 12, 'zeros'),
+    ([3.0, 0.0, 1.0] + [0.0] * 12, 'a length and zeros'), ([3.0, 0.0, 1.0, 5.0, 1.0] + [0.0] * 10, 'a length and zeros')])
 def test_what_is_no_schedule_record_is_refused(data, message):
     with pytest.raises(ValueError, match=message):
         schedule.decode(data)
