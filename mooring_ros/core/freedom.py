@@ -1,25 +1,44 @@
 """What may move in the statics: unknowns, and how the nodes follow them.
 
-Unknowns are three for every node of its own (inside lines, loose ends, free points with the ends that they hold) and six for every rigid
-part (place and turn, world axes; a pinned part only turns); the platform's six follow as the last ones. The nodes' moves are T x to first
-order, forces on the unknowns T' f, and the stiffness between them T' K T with the turning of arms under load.
+Unknowns come in threes: the place of every node of its own (inside lines, loose ends, free points with the ends that they hold), then place
+and turn (world axes) of every rigid part (a pinned part only turns); the platform's place and turn are the last two. A node follows a place
+as it is and a turn by its arm; a list of (node, three, arm or none) says all of it.
 """
 
+from typing import NamedTuple
+
 import numpy as np
-from scipy import sparse
 
 from .layout import POINT_COUPLED, POINT_FREE, POINT_RIDING
 from .model import LOOSE
+
+NO_ARM = -1
 
 
 def skew(v):
     return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
 
 
+def skews(v):
+    """(k, 3, 3) of v (k, 3)."""
+    m = np.zeros((len(v), 3, 3))
+    m[:, 0, 1], m[:, 0, 2], m[:, 1, 2] = -v[:, 2], v[:, 1], -v[:, 0]
+    return m - m.transpose(0, 2, 1)
+
+
+class Following(NamedTuple):
+    """Row by row: `node` follows the unknowns `three`, by `arm` (index, NO_ARM for a place)."""
+
+    node: np.ndarray
+    three: np.ndarray
+    arm: np.ndarray
+
+
 class Freedom:
     """Unknowns of one model with its ends held as `state.end_point` says.
 
-    count: unknowns, the platform's not included; own: those of nodes of their own.
+    count: unknowns, the platform's not included; own: those of nodes of their own. kept (count // 3,): whether a three moves at all.
+    following: a Following without the platform; with_platform: and with it, its last two threes.
     """
 
     def __init__(self, model, state):
@@ -34,97 +53,101 @@ class Freedom:
             unknown[model.end_node[e]] = own
             own += 1
         unknown[model.point_node[model.free_points]] = np.arange(own, own + model.free_points.size)
-        self.own = 3 * (own + model.free_points.size)
-        holder = self._holders(model, state)
-        for node, p in holder:
-            if model.point_kind[p] == POINT_FREE:
-                unknown[node] = unknown[model.point_node[p]]
-        self._nodes = np.flatnonzero(unknown >= 0)
-        self._unknown = unknown[self._nodes]
-        self._riders = [(node, model.rigid.part[p]) for node, p in holder if model.point_kind[p] == POINT_RIDING]
-        self._coupled = [node for node, p in holder if model.point_kind[p] == POINT_COUPLED]
-        self._pinned = [b for b in range(self.parts) if model.rigid.pin[b] >= 0]
-        total = self.own + 6 * self.parts
-        self.kept = np.ones(total, dtype=bool)
-        for b in self._pinned:
-            self.kept[self.own + 6 * b : self.own + 6 * b + 3] = False
-        self.count = total
-        n = 3 * model.mass.size
-        rows = (3 * self._nodes[:, None] + np.arange(3)).ravel()
-        columns = (3 * self._unknown[:, None] + np.arange(3)).ravel()
-        self._simple = sparse.csr_matrix((np.ones(rows.size), (rows, columns)), shape=(n, total + 6))
+        own += model.free_points.size
+        self.own, self.count = 3 * own, 3 * own + 6 * self.parts
+        node, point = self._holders(model, state)
+        kind = model.point_kind[point]
+        free = kind == POINT_FREE
+        unknown[node[free]] = unknown[model.point_node[point[free]]]
+        rides = kind == POINT_RIDING
+        self._rider, self._rider_part = node[rides], model.rigid.part[point[rides]]
+        self._coupled = node[kind == POINT_COUPLED]
+        pinned = model.rigid.pin >= 0
+        self._pinned = np.flatnonzero(pinned)
+        on_platform = pinned & (model.point_kind[model.rigid.pin] == POINT_COUPLED)
+        self._hung = np.flatnonzero(on_platform[self._rider_part])  # riders on parts that hang on the platform
+        self.kept = np.ones(self.count // 3, dtype=bool)
+        self.kept[own + 2 * self._pinned] = False
+        self._list(unknown, own, pinned)
 
     @staticmethod
     def _holders(model, state):
-        """(node, internal point) of every node that a point carries: its own and those of the ends it holds."""
-        pairs = [(int(node), p) for p, node in enumerate(model.point_node)]
-        return pairs + [(int(node), int(p)) for node, p in zip(model.end_node, state.end_point) if p != LOOSE]
+        """Nodes that points carry, their own and those of the ends that they hold, and the points."""
+        held = np.flatnonzero(state.end_point != LOOSE)
+        node = np.concatenate([model.point_node, model.end_node[held]])
+        return node, np.concatenate([np.arange(model.point_node.size), state.end_point[held]])
+
+    def _list(self, unknown, own, pinned):
+        own_nodes = np.flatnonzero(unknown >= 0)
+        self._nodes, self._unknown = own_nodes, unknown[own_nodes]
+        place = own + 2 * self._rider_part
+        loose, riders = ~pinned[self._rider_part], np.arange(self._rider.size)
+        rows = [(own_nodes, self._unknown, NO_ARM), (self._rider[loose], place[loose], NO_ARM), (self._rider, place + 1, riders)]
+        self.following = _following(rows)
+        carried = np.concatenate([self._coupled, self._rider[self._hung]])
+        arms = self._rider.size + np.arange(carried.size)
+        platform = self.count // 3
+        self.with_platform = _following(rows + [(carried, platform, NO_ARM), (carried, platform + 1, arms)])
+        self._by_arm = np.flatnonzero(self.following.arm != NO_ARM)
+        self._columns = _in_threes(self.following.three)
+        self._rows = _in_threes(self.following.node)
 
     @property
     def rigid(self):
         """Whether anything in the scene moves as a rigid part."""
         return self.parts > 0
 
-    def _coupled_pin(self, b):
-        pin = self.model.rigid.pin[b]
-        return pin >= 0 and self.model.point_kind[pin] == POINT_COUPLED
+    def arms(self, state, platform=False):
+        """(arms, 3) m, of the riders and, with `platform`, of what it carries."""
+        riders = state.position.T[self._rider] - state.parts[self._rider_part, :3]
+        if not platform:
+            return riders
+        pins = state.parts[self._rider_part[self._hung], :3]
+        return np.concatenate([riders, state.position.T[self._coupled] - state.pose[:3], pins - state.pose[:3]])
 
-    def follow(self, state, platform=False):
-        """T (3n, count + 6), sparse, rows node by node: nodes on parts and (with `platform`) on the platform at their present arms."""
-        if not (self.parts or platform):
-            return self._simple
-        entries = [(3 * node, self.own + 6 * b, self._arm_block(state.position[:, node] - state.parts[b, :3])) for node, b in self._riders]
-        if platform:
-            carried = [(node, state.position[:, node]) for node in self._coupled]
-            carried += [(node, state.parts[b, :3]) for node, b in self._riders if self._coupled_pin(b)]
-            entries += [(3 * node, self.count, self._arm_block(place - state.pose[:3])) for node, place in carried]
-        if not entries:
-            return self._simple
-        rows = np.concatenate([np.repeat(np.arange(r, r + 3), 6) for r, _, _ in entries])
-        columns = np.concatenate([np.tile(np.arange(c, c + 6), 3) for _, c, _ in entries])
-        values = np.concatenate([block.ravel() for _, _, block in entries])
-        return (self._simple + sparse.csr_matrix((values, (rows, columns)), shape=self._simple.shape)).tocsr()
-
-    @staticmethod
-    def _arm_block(arm):
-        return np.hstack([np.eye(3), -skew(arm)])
-
-    def turning(self, state, force, platform=False):
-        """Sparse (count + 6, count + 6): stiffness of arms that turn under the nodes' `force` (3, n) while it stays, d(r x F) = (d theta x r) x F."""
-        arms = [(self.own + 6 * b + 3, node, state.position[:, node] - state.parts[b, :3]) for node, b in self._riders]
-        if platform:
-            arms += [(self.count + 3, node, state.position[:, node] - state.pose[:3]) for node in self._coupled]
-            arms += [(self.count + 3, node, state.parts[b, :3] - state.pose[:3]) for node, b in self._riders if self._coupled_pin(b)]
-        total = sparse.lil_matrix((self.count + 6, self.count + 6))
-        for at, node, arm in arms:
-            total[at : at + 3, at : at + 3] += -skew(force[:, node]) @ skew(arm)
-        return total.tocsr()
+    def turned_threes(self, platform=False):
+        """What the arms turn with: (three, node) of each, as `arms` has them."""
+        three, node = self.own // 3 + 2 * self._rider_part + 1, self._rider
+        if not platform:
+            return three, node
+        carried = np.concatenate([self._coupled, self._rider[self._hung]])
+        return np.concatenate([three, np.full(carried.size, self.count // 3 + 1)]), np.concatenate([node, carried])
 
     def turn_of(self, clamps, c):
-        """First of the three unknowns that turn clamp c, or None for one that the ground holds."""
+        """The three that turns clamp c, or None for one that the ground holds."""
         if clamps.part[c] >= 0:
-            return self.own + 6 * clamps.part[c] + 3
-        return self.count + 3 if clamps.riding[c] else None
+            return self.own // 3 + 2 * clamps.part[c] + 1
+        return self.count // 3 + 1 if clamps.riding[c] else None
 
-    def forces(self, follow, state, force):
+    def forces(self, state, force):
         """(count,) forces on the unknowns from those on the nodes, (3, n), and from the clamps; none on what does not move."""
-        load = (follow.T @ force.T.ravel())[: self.count]
+        pull = force.T[self.following.node]
+        if self._by_arm.size:
+            pull[self._by_arm] = np.cross(self.arms(state), pull[self._by_arm])
+        load = np.bincount(self._columns, pull.ravel(), self.count)
         for c in np.flatnonzero(self.model.clamps.part >= 0):
-            at = self.turn_of(self.model.clamps, c)
+            at = 3 * self.turn_of(self.model.clamps, c)
             load[at : at + 3] += state.clamp_moment[c]
-        load[~self.kept] = 0.0
         return load
+
+    def moves(self, state, step, move):
+        """Put into `move` (3, n) how the nodes go when the unknowns go by `step` (count,), to first order."""
+        go = step.reshape(-1, 3)[self.following.three]
+        if self._by_arm.size:
+            go[self._by_arm] = np.cross(go[self._by_arm], self.arms(state))
+        move[:] = np.bincount(self._rows, go.ravel(), move.size).reshape(-1, 3).T
 
     def sizes(self, state, load):
         """Norms (N) of the forces (count,) on each unknown place or turn; moments over the part's size."""
         norms = np.sqrt((load.reshape(-1, 3) ** 2).sum(axis=1))
-        for b in range(self.parts):
-            arms = [np.linalg.norm(state.position[:, node] - state.parts[b, :3]) for node, part in self._riders if part == b]
-            norms[self.own // 3 + 2 * b + 1] /= max(max(arms, default=0.0), 1e-3)
+        if self.parts:
+            reach = np.full(self.parts, 1e-3)
+            np.maximum.at(reach, self._rider_part, np.sqrt((self.arms(state) ** 2).sum(axis=1)))
+            norms[self.own // 3 + 1 :: 2] /= reach
         return norms
 
     def put(self, state, start, step, share):
-        """Put `state` at `start` (position, parts) moved by `share` of the step (count + 6,)."""
+        """Put `state` at `start` (position, parts) moved by `share` of the step (count,)."""
         position, parts = start
         state.position[:] = position
         state.position[:, self._nodes] += share * step[: self.own].reshape(-1, 3)[self._unknown].T
@@ -135,6 +158,17 @@ class Freedom:
             state.parts[b, 3:7] = _turned(x[3:], state.parts[b, 3:7])
 
 
+def _following(rows):
+    node = np.concatenate([nodes for nodes, _, _ in rows])
+    three = np.concatenate([np.broadcast_to(threes, nodes.shape) for nodes, threes, _ in rows])
+    arm = np.concatenate([np.broadcast_to(arms, nodes.shape) for nodes, _, arms in rows])
+    return Following(node, three, arm)
+
+
+def _in_threes(index):
+    return (3 * index[:, None] + np.arange(3)).ravel()
+
+
 def _turned(turn, q):
     """Quaternion q turned by a rotation vector (3,), world axes."""
     angle = np.linalg.norm(turn)
@@ -142,11 +176,3 @@ def _turned(turn, q):
     w = np.cos(0.5 * angle)
     turned = np.append(w * q[:3] + q[3] * v + np.cross(v, q[:3]), w * q[3] - v @ q[:3])
     return turned / np.linalg.norm(turned)
-
-
-def block_matrix(rows, columns, blocks, shape):
-    """Sparse matrix of 3 x 3 blocks (b, 3, 3) at the nodes `rows` and `columns` (b,); blocks of the same place add up."""
-    three = np.arange(3)
-    at = np.broadcast_to(3 * rows[:, None, None] + three[:, None], blocks.shape)
-    over = np.broadcast_to(3 * columns[:, None, None] + three, blocks.shape)
-    return sparse.csr_matrix((blocks.ravel(), (at.ravel(), over.ravel())), shape=shape)

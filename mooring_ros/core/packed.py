@@ -7,7 +7,7 @@ change their values, not their place: tuples are immutable, and `_replace` makes
 """
 
 import struct
-from functools import cached_property, wraps
+from functools import cached_property, lru_cache, wraps
 
 import numba
 import numpy as np
@@ -72,7 +72,7 @@ def _words(value):
     if isinstance(value, np.ndarray):
         if not value.flags.c_contiguous:
             raise ValueError(f"an array of shape {value.shape} is not contiguous")
-        return numba.typeof(value), [value.size, value.itemsize, value.ctypes.data, *value.shape, *value.strides]
+        return _array_type(value.dtype, value.ndim, value.flags.writeable), [value.size, value.itemsize, value.ctypes.data, *value.shape, *value.strides]
     if isinstance(value, bool | np.bool_):
         return types.boolean, [int(value)]
     if isinstance(value, int | np.integer):
@@ -80,6 +80,12 @@ def _words(value):
     if isinstance(value, tuple):
         return types.UniTuple(types.float64, len(value)), [_bits(part) for part in value]
     return types.float64, [_bits(value)]
+
+
+@lru_cache(maxsize=None)
+def _array_type(dtype, ndim, writeable):
+    """That of contiguous arrays; numba.typeof takes longer than all else here."""
+    return types.Array(numba.from_dtype(dtype), ndim, "C", readonly=not writeable)
 
 
 def _bits(value):

@@ -8,14 +8,13 @@ no stiffness, and fades as the residual falls.
 from dataclasses import dataclass
 
 import numpy as np
-
-from scipy import sparse
 from scipy.sparse.linalg import splu
 
 from . import catenary
 from .bending_tangent import bending_blocks, bending_pattern
+from .equations import Equations
 from .forces import evaluate_once
-from .freedom import Freedom, block_matrix
+from .freedom import Freedom
 from .ground import commit_grip, ground_blocks
 from .laying import lay, move_to_laid
 from .layout import POINT_COUPLED, POINT_FIXED, POINT_RIDING
@@ -63,10 +62,8 @@ class StaticSolver:
         self._slack_strain = np.zeros(n)
         self._no_ropes = build_ropes([])
         self.blocks = np.zeros((n, 3, 3, 3))  # of each node with its left neighbour, itself and its right one
-        self._indptr = np.concatenate([[0, 2], 2 + 3 * np.arange(1, n - 1), [3 * n - 2]])
-        self._indices = (np.arange(n)[:, None] + np.array([-1, 0, 1])).ravel()[1:-1]
         self.move = np.zeros((3, n))
-        self._freedom, self._held = None, None
+        self._freedom, self._equations, self._held = None, None, None
         self._pattern = bending_pattern(model.bending)
         clamps = model.clamps.part.size
         self._bent, self._turn, self._axis = np.zeros((self._pattern.rows.size, 3, 3)), np.zeros((clamps, 2, 3, 3)), np.zeros((clamps, 3, 3))
@@ -158,6 +155,7 @@ class StaticSolver:
         """Everything at rest and ready; returns the force asked for (N)."""
         if self._held is None or (self._held != state.end_point).any():
             self._freedom, self._held = Freedom(self.model, state), state.end_point.copy()
+            self._equations = Equations(self.model, self._freedom, self._pattern, self.weight)
         self._bed = scratch.bed
         state.settings[:6] = (0.0, 0.0, 1.0, 1.0, 0.0, np.inf)
         state.settings[7] = 1.0
@@ -327,81 +325,48 @@ class StaticSolver:
         return self._freedom.sizes(state, self._load(state, force))
 
     def _load(self, state, force):
-        return self._freedom.forces(self._freedom.follow(state), state, force)
+        return self._freedom.forces(state, force)
 
     def _step(self, state, damping):
         """Newton step of the unknowns, shortened where it goes far, with the nodes' moves in self.move; None when the system is singular."""
         free = self._freedom
-        follow = free.follow(state)
-        matrix = self._stiffness(state, follow, damping)[: free.count, : free.count]
-        load = free.forces(follow, state, state.force)
-        step = np.zeros(free.count + 6)
-        try:
-            if free.kept.all():
-                step[: free.count] = splu(matrix.tocsc()).solve(load)
-            else:
-                kept = np.flatnonzero(free.kept)
-                step[kept] = splu(matrix[kept][:, kept].tocsc()).solve(load[kept])
-        except RuntimeError:  # exactly singular
+        step = self._equations.solve(free.forces(state, state.force), state, *self._stiffness(state, damping))
+        if step is None:
             return None
-        self.move[:] = (follow @ step).reshape(-1, 3).T
-        if not np.isfinite(step).all():
-            return None
+        free.moves(state, step, self.move)
         farthest = np.sqrt((self.move**2).sum(axis=0).max())
         share = min(LONGEST_MOVE * max(self.lengths) / max(farthest, 1e-300), 1.0)
-        turns = step[free.own : free.count].reshape(-1, 6)[:, 3:]
+        turns = step[free.own :].reshape(-1, 6)[:, 3:]
         share = min(share, LARGEST_TURN / max(np.sqrt((turns**2).sum(axis=1)).max(initial=0.0), 1e-300))
         step *= share
         self.move *= share
         return step
 
-    def _stiffness(self, state, follow, damping, platform=False):
-        """Sparse (count + 6, count + 6) stiffness between the unknowns, damped."""
+    def _stiffness(self, state, damping):
+        """Blocks of the stiffness for Equations, damped."""
         model = self.model
         fill_tangent(model, state, self.blocks)
         if model.ground.on:
             ground_blocks(model.ground, model.size, state.position, state.tangent, model.bed_stiffness, self._bed, state.grip, self.blocks[:, 1])
         for k in range(3):
             self.blocks[:, 1, k, k] += damping * self.scale
-        n = model.mass.size
-        nodes = sparse.bsr_matrix((self.blocks.reshape(-1, 3, 3)[1:-1], self._indices, self._indptr), shape=(3 * n, 3 * n)).tocsr()
         if model.bending.stiffness.size:
-            nodes, turns, axes = self._bending(state, nodes)
-            total = follow.T @ (nodes @ follow) + follow.T @ turns + turns.T @ follow + axes
-        else:
-            total = follow.T @ (nodes @ follow)
-        if platform or self._freedom.rigid:
-            total = total + self._freedom.turning(state, state.force, platform)
-        return total.tocsr()
-
-    def _bending(self, state, nodes):
-        """Stiffness (3n, 3n) with bending, and that between nodes and the turns of what holds clamps (3n, count + 6), and among these."""
-        model, free, pattern = self.model, self._freedom, self._pattern
-        bending_blocks(
-            model.bending, pattern, state.position, state.tangent, model.length, state.end_point, state.clamp_axis, self._bent, self._turn, self._axis
-        )
-        nodes = nodes + block_matrix(pattern.rows, pattern.cols, self._bent, nodes.shape)
-        held = [(c, free.turn_of(model.clamps, c)) for c in range(len(self._axis))]
-        held = [(c, at) for c, at in held if at is not None]
-        size = free.count + 6
-        turns, axes = sparse.lil_matrix((nodes.shape[0], size)), sparse.lil_matrix((size, size))
-        for c, at in held:
-            segment, sign = model.bending.clamp_segment[c], model.bending.clamp_sign[c]
-            for side, node in enumerate((segment - 1, segment) if sign > 0.0 else (segment, segment - 1)):
-                turns[3 * node : 3 * node + 3, at : at + 3] += self._turn[c, side]
-            axes[at : at + 3, at : at + 3] += self._axis[c]
-        return nodes, turns.tocsr(), axes.tocsr()
+            bending_blocks(
+                model.bending, self._pattern, state.position, state.tangent, model.length, state.end_point, state.clamp_axis, self._bent, self._turn,
+                self._axis,
+            )  # fmt: skip
+        return self.blocks, self._bent, self._turn, self._axis
 
     def _search(self, state, scratch, step):
         """Go along `step` to where the force along it has all but vanished. Returns (share of the step, residual)."""
-        start, along = _configuration(state), step[: self._freedom.count]
-        slope0 = float(self._load(state, state.force) @ along)
+        start = _configuration(state)
+        slope0 = float(self._load(state, state.force) @ step)
         low, high, share = 0.0, None, 1.0
         slope_low = slope0
         for _ in range(30):
             self._freedom.put(state, start, step, share)
             residual = self._evaluate(state, scratch)
-            slope = float(self._load(state, state.force) @ along)
+            slope = float(self._load(state, state.force) @ step)
             if slope >= -0.3 * abs(slope0) and (high is not None or slope <= 0.9 * abs(slope0) or share >= 1.0):
                 break
             if slope < 0.0:
@@ -424,8 +389,9 @@ class StaticSolver:
         state.settings[7] = 1.0
         _evaluate_at_rest(self.model, state, scratch)
         rope_statics(self.model.ropes, state.tension, self.model.stiffness, self._slack_strain)
-        total = self._stiffness(state, free.follow(state, platform=True), STIFFNESS_DAMPING, platform=True)
-        kept, held = np.flatnonzero(free.kept), np.arange(free.count, free.count + 6)
+        equations = Equations(self.model, free, self._pattern, self.weight, platform=True)
+        total = equations.matrix(state, *self._stiffness(state, STIFFNESS_DAMPING))
+        kept, held = np.flatnonzero(np.repeat(free.kept, 3)), np.arange(free.count, free.count + 6)
         own = total[held][:, held].toarray()
         if not kept.size:
             return own
