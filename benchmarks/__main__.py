@@ -20,6 +20,7 @@ BENCHMARKS = {
     "friction": "bed friction along and across a chain and in waves: both laws, closed form, CableDyn",
     "bar": "a chain dragged along a rough bed and let back: both laws against the bar on a Coulomb bed",
     "energy": "a driven cable with bending stiffness and no losses: its account of energy over 100 periods",
+    "parts": "a sphere that falls, one that heaves, and a rod that swings, against closed forms",
     "iswec": "load and excursion of the two ISWEC moorings, against MoorPy",
     "ropes": "a viscoelastic rope, stretched, held and swung, against closed forms and MoorDyn",
     "node_latency": "the ROS 2 node: input stamp to wrench, against an empty echo node",
