@@ -11,6 +11,7 @@ from scipy.sparse.csgraph import reverse_cuthill_mckee
 from scipy.sparse.linalg import splu
 
 from .freedom import NO_ARM, skews
+from .platform import rotate
 
 WIDEST = 60  # half band, unknowns: beyond it a sparse factorisation is quicker
 SPIN_TRACE = 1e-12  # of a part's largest stiffness, or of the line's weight at 1 m: above rounding, below anything that holds a part
@@ -27,7 +28,8 @@ class Equations:
         n, count = model.mass.size, freedom.count // 3 + 2 * platform
         following = freedom.with_platform if platform else freedom.following
         turned, nodes = freedom.turned_threes(platform)
-        self._turned_nodes = nodes
+        self._turned_nodes, parts = nodes, (turned - freedom.own // 3) // 2
+        self._slender_arms = np.where(parts < freedom.parts, parts, freedom.parts)
         clamps = [(c, freedom.turn_of(model.clamps, c)) for c in range(model.clamps.part.size)] if pattern.rows.size else []
         clamps = [(c, three) for c, three in clamps if three is not None and three < count]
         self._clamps = np.array([c for c, _ in clamps], dtype=np.int64)
@@ -71,18 +73,24 @@ class Equations:
         k = np.arange(3)
         row, col = (3 * rows[:, None, None] + k[:, None]), (3 * cols[:, None, None] + k)
         self._unknown = (3 * self._place[:, None] + k).ravel()
-        diagonal = self._unknown.reshape(-1, 3)
+        turns = self._unknown.reshape(-1, 3)[self._freedom.own // 3 + 1 + 2 * np.arange(self._freedom.parts)]
+        still = self._unknown.reshape(-1, 3)[np.flatnonzero(~self._freedom.kept)].ravel()
         if self._band <= WIDEST:
             self._height = 3 * self._band + 1
-            self._at = (col * self._height + 2 * self._band + row - col).ravel()
-            self._size, diagonal = size * self._height, diagonal * self._height + 2 * self._band
+            self._size = size * self._height
+
+            def place(row, col):
+                return col * self._height + 2 * self._band + row - col
         else:
-            self._filled, self._at = np.unique((col * size + row).ravel(), return_inverse=True)
-            self._size, diagonal = self._filled.size, np.searchsorted(self._filled, diagonal * size + diagonal)
+            self._filled = np.unique(np.concatenate([(col * size + row).ravel(), still * (size + 1)]))
+            self._size = self._filled.size
             self._columns = np.searchsorted(self._filled, np.arange(size + 1) * size)
-        parts = self._freedom.own // 3 + 1 + 2 * np.arange(self._freedom.parts)
-        self._spins = diagonal[parts]
-        self._still = diagonal[np.flatnonzero(~self._freedom.kept)].ravel()
+
+            def place(row, col):
+                return np.searchsorted(self._filled, col * size + row)
+
+        self._at, self._still = place(row, col).ravel(), place(still, still)
+        self._turns = place(turns[:, :, None], turns[:, None, :])
 
     def _values(self, state, blocks, bent, turn, axis):
         """(k, 3, 3) of all blocks."""
@@ -92,17 +100,28 @@ class Equations:
             all_blocks += [turns, turns.transpose(0, 2, 1), axis[self._clamps]]
         if self._turned_nodes.size:
             arms = skews(free.arms(state, self._platform))
-            all_blocks.append(-skews(state.force.T[self._turned_nodes]) @ arms)  # d(r x F) = (d theta x r) x F
+            turning = -skews(state.force.T[self._turned_nodes]) @ arms  # d(r x F) = (d theta x r) x F
+            all_blocks.append(turning - self._spin_of(state)[self._slender_arms] @ turning)
         values = (np.concatenate(all_blocks) if len(bent) or len(all_blocks) > 2 else all_blocks[0])[self._block]
         if self._turned_nodes.size:
             values[self._left] = arms[self._left_arm] @ values[self._left]
             values[self._right] = values[self._right] @ -arms[self._right_arm]
         return values
 
+    def _spin_of(self, state):
+        """(parts + 1, 3, 3): u u' of the axis u about which a slender part spins, else and last null."""
+        free = self._freedom
+        spins = np.zeros((free.parts + 1, 3, 3))
+        for b, axis in zip(free.slender, free.slender_axis):
+            u = np.array(rotate(state.parts[b, 3:7], axis))
+            spins[b] = np.outer(u, u)
+        return spins
+
     def _assemble(self, state, *blocks):
         data = np.bincount(self._at, self._values(state, *blocks).ravel(), self._size)
-        if self._spins.size:
-            data[self._spins] += SPIN_TRACE * np.maximum(np.abs(data[self._spins]).max(axis=1, keepdims=True), self._weight)
+        if self._turns.size:
+            largest = np.abs(data[self._turns]).max(axis=(1, 2), keepdims=True)
+            data[self._turns] += SPIN_TRACE * np.maximum(largest, self._weight) * np.eye(3) + largest * self._spin_of(state)[:-1]
         data[self._still] = 1.0
         return data
 

@@ -13,6 +13,7 @@ from .layout import POINT_COUPLED, POINT_FREE, POINT_RIDING
 from .model import LOOSE
 
 NO_ARM = -1
+ALIGNED = 1e-9  # of the longest arm
 
 
 def skew(v):
@@ -38,6 +39,7 @@ class Freedom:
     """Unknowns of one model with its ends held as `state.end_point` says.
 
     count: unknowns, the platform's not included; own: those of nodes of their own. kept (count // 3,): whether a three moves at all.
+    slender: parts that nothing could tell to spin, all that rides on them in one line; slender_axis (k, 3): along it, the part's axes.
     following: a Following without the platform; with_platform: and with it, its last two threes.
     """
 
@@ -69,6 +71,20 @@ class Freedom:
         self.kept = np.ones(self.count // 3, dtype=bool)
         self.kept[own + 2 * self._pinned] = False
         self._list(unknown, own, pinned)
+        axes = {b: self._only_axis(b) for b in range(self.parts)}
+        self.slender = np.array([b for b, axis in axes.items() if axis is not None], dtype=np.int64)
+        self.slender_axis = np.array([axes[b] for b in self.slender]).reshape(-1, 3)
+
+    def _only_axis(self, b):
+        """Unit vector (3,) along which all that rides on part b stands, clamps too, or None."""
+        model = self.model
+        arms = model.point_place[model.rigid.riding[model.rigid.part[model.rigid.riding] == b]]
+        sizes = np.linalg.norm(arms, axis=1)
+        if not sizes.max(initial=0.0) > 0.0:
+            return None
+        axis = arms[sizes.argmax()] / sizes.max()
+        lines = np.concatenate([arms / sizes.max(), model.clamps.axis[model.clamps.part == b]])
+        return axis if np.abs(np.cross(lines, axis)).max() < ALIGNED else None
 
     @staticmethod
     def _holders(model, state):
