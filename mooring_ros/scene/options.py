@@ -188,17 +188,17 @@ class Options:
     def unused(self, why: str, *names: str) -> list[str]:
         """A warning for each of the options that is still left, whose row it names."""
         rows = [self._rows[name] for name in names if name in self._values]
-        return [f"{row.file}:{row.line}: the option {row.words[1]} is not used: {why}" for row in rows]
+        return [_unused(why, [row]) for row in rows]
 
 
 def read_options(section: Section) -> tuple[Options, list[str]]:
-    """The options by their usual names, and a warning for each that is never used.
+    """The options by their usual names, and a warning for each reason why some are never used.
 
     ``default`` as a value is the same as leaving the option out.
     """
     values: dict[str, object] = {}
     rows: dict[str, Row] = {}
-    warnings: list[str] = []
+    never_used: dict[str, list[Row]] = {}
     for row in section.rows:
         if len(row.words) < 2:
             raise row.error(f"'{row.words[0]}' stands alone, expected a value and the name of an option")
@@ -213,8 +213,16 @@ def read_options(section: Section) -> tuple[Options, list[str]]:
             continue
         values[fate.name] = fate.read(row, given)
         if fate.unused:
-            warnings.append(f"{row.file}:{row.line}: the option {given} is not used: {fate.unused}")
-    return Options(values, rows, section.heading), warnings
+            never_used.setdefault(fate.unused, []).append(row)
+    return Options(values, rows, section.heading), [_unused(why, options) for why, options in never_used.items()]
+
+
+def _unused(why: str, rows: list[Row]) -> str:
+    first, *others = rows
+    place, name = f"{first.file}:{first.line}", first.words[1]
+    if not others:
+        return f"{place}: the option {name} is not used: {why}"
+    return f"{place}: the options {name}, {', '.join(f'{row.words[1]} (line {row.line})' for row in others)} are not used: {why}"
 
 
 def _unknown(row: Row) -> str:

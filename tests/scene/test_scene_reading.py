@@ -58,6 +58,14 @@ def test_what_is_not_used_is_said_with_its_line():
     assert outputs.startswith(f"deck.txt:{line_of(PLAIN, '--- OUTPUTS')}: ")
 
 
+def test_options_that_are_not_used_for_one_reason_share_a_warning():
+    text = PLAIN.replace("--- OPTIONS ---\n", "--- OPTIONS ---\n100 TmaxIC\n0.5 dtIC\n4 CdScaleIC\n")
+    first = line_of(text, "100 TmaxIC")
+    found = [warning for warning in parse_scene(text, "deck.txt").warnings if "IC" in warning]
+    assert len(found) == 1
+    assert found[0].startswith(f"deck.txt:{first}: the options TmaxIC, dtIC (line {first + 1}), CdScaleIC (line {first + 2}) are not used: the initial state")
+
+
 def test_environment_defaults_are_those_of_moordyn():
     text = re.sub(r"(?s)--- OPTIONS.*", "--- OPTIONS ---\n100 WtrDpth\n", PLAIN)
     assert parse_scene(text).environment == Environment(100.0, 9.80665, 1025.0, 3.0e6, 3.0e5, (0.0, 0.0, 0.0))
