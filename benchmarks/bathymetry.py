@@ -2,8 +2,8 @@
 
 The platform is moved by regular waves of 9.3 m and 14.9 s at 90 degrees: sway and heave a quarter period apart, the same on all beds.
 MoorDyn (C++) pushes lines on a slope straight up; ours and CableDyn push along the bed's normal, as the paper and MoorDyn's Fortran version do.
-At rest and in the plane of the slope that makes no difference without friction: the chain is held at the same place. Across it the chain slides downhill, or not;
-and in waves that all but slacken a line its own weight draws the chain on a slope tight, or not.
+At rest and in the plane of the slope that makes no difference without friction: the chain is held at the same place. Across it the chain slides
+downhill, or not; and in waves that all but slacken a line its own weight draws the chain on a slope tight, or not.
 """
 
 from dataclasses import replace
@@ -94,7 +94,7 @@ def load_statics():
 def write_statics(found):
     """Keep the peers' static tensions {(bed, line): (MoorDyn's, CableDyn's)} in the file, for the tests."""
     with open(FILE, "w", encoding="utf-8") as file:
-        file.write("# VolturnUS-S semi-taut on four beds without friction, benchmarks/bathymetry.py: static tension [N] of the segments at the fairleads\n")
+        file.write("# VolturnUS-S semi-taut on four beds without friction, benchmarks/bathymetry.py\n# Static tension [N] of the segments at the fairleads\n")
         file.write("# MoorDyn 2.7.2 (dynamic relaxation), CableDyn 0.3.0\nbed,line,MoorDyn,CableDyn\n")
         for (bed, line), (a, b) in found.items():
             file.write(f"{bed},{line},{a:.1f},{b:.1f}\n")
@@ -123,7 +123,7 @@ def run(quick=False):
     times = np.arange(motion.start, motion.end - SAMPLE, SAMPLE)
     found = {}
     for bed, scene in scenes().items():
-        found[bed] = {"ours": of_ours(scene, times, motion), "MoorDyn": of_moordyn(scene, times, motion), "CableDyn": of_cabledyn(scene, times, motion)}
+        found[bed] = {code: solve(scene, times, motion) for code, solve in (("ours", of_ours), ("MoorDyn", of_moordyn), ("CableDyn", of_cabledyn))}
         print(f"{bed}: done", flush=True)
     result = report(times, found)
     result["tables"]["bathymetry_statics"] = at_first

@@ -113,7 +113,8 @@ def run(quick=False):
     content = {"bergdahl": main, "bergdahl_convergence": changes}
     print("\n\n".join(content.values()), flush=True)
     failed = [f"Bergdahl 2016: mean absolute error {100 * error:.1f} %, goal {100 * GOAL:.0f} %"] if error > GOAL else []
-    return {"rows": rows, "mean_absolute_error": error, "mean_error": bias(rows), "cpu": cpu, "tables": content, "failed": failed, "figures": {"bergdahl.png": picture(rows)}}
+    pictures = {"bergdahl.png": picture(rows)}
+    return {"rows": rows, "mean_absolute_error": error, "mean_error": bias(rows), "cpu": cpu, "tables": content, "failed": failed, "figures": pictures}
 
 
 def picture(rows):

@@ -1,4 +1,4 @@
-"""CableDyn (Fortran, the Python package ``cabledyn``): cubic Hermite elements, implicit generalised-alpha steps. Lines in series of one of our scenes as its deck.
+"""CableDyn (Fortran, the Python package ``cabledyn``; cubic Hermite elements, implicit steps) on lines in series of one of our scenes.
 
 What differs from MoorDyn, and what is done about it here:
 
@@ -113,13 +113,16 @@ def deck(scene, chain, step, duration, segments=1, curvature_at=(), friction=Non
             raise PeerError(f"the peer deck does not carry the rope {k.name}")
         values = (k.diameter, k.mass, k.stiffness, k.damping, k.bending_stiffness, k.drag_normal, k.drag_axial, k.added_mass_normal, k.added_mass_axial)
         rows.append(_row(k.name, *map(float, values)))
-    rows += ["------- POINTS -------", "ID Type X Y Z", "(-) (-) (m) (m) (m)", _row(1, "Coupled", *map(float, chain.top)), _row(2, "Fixed", *map(float, chain.anchor))]
+    rows += ["------- POINTS -------", "ID Type X Y Z", "(-) (-) (m) (m) (m)"]
+    rows += [_row(1, "Coupled", *map(float, chain.top)), _row(2, "Fixed", *map(float, chain.anchor))]
     rows += ["------- LINES -------", "ID NodeA NodeB Outputs", "(-) (-) (-) (-)", "1 1 2 pt"]
     rows += ["------- SECTIONS -------", "LineID LineType Length NumSegs", "(-) (-) (m) (-)"]
     rows += [_row(1, n.type.name, float(n.length), n.segments * segments) for n in chain.sections]
     if chain.clamp is not None:
-        rows += ["------- END CONNECTIONS -------", "LineID End Stiffness EzX EzY EzZ", "(-) (-) (N-m/rad) (-) (-) (-)", _row(1, "A", "Rigid", *map(float, chain.clamp))]
-    rows += ["------- OPTIONS -------", f"{env.gravity!r} g", f"{env.water_density!r} rhoW", f"{env.bed_stiffness!r} kBot", f"{env.bed_damping!r} cBot"]
+        rows += ["------- END CONNECTIONS -------", "LineID End Stiffness EzX EzY EzZ", "(-) (-) (N-m/rad) (-) (-) (-)"]
+        rows.append(_row(1, "A", "Rigid", *map(float, chain.clamp)))
+    rows += ["------- OPTIONS -------", f"{env.gravity!r} g", f"{env.water_density!r} rhoW"]
+    rows += [f"{env.bed_stiffness!r} kBot", f"{env.bed_damping!r} cBot"]
     rows.append("depths.txt bathymetryFile" if env.bathymetry else f"{float(env.depth)!r} WtrDpth")
     rows += [f"{float(step)!r} dtM", f"{float(duration)!r} TMax", "motion.txt motionFile"]
     if env.waves is not None:

@@ -44,7 +44,8 @@ def account(share=None, motion=MOTION):
     every = round(motion.period * RATE / 16.0)
     half = 0.5 * KIND.mass * mooring.scene.lines[0].length / mooring.scene.lines[0].segments
     speed = np.concatenate([np.zeros((1, 3)), twists[:, :3]])
-    late = half * (np.diff(speed, axis=0) * RATE - np.gradient(speed, 1.0 / RATE, axis=0)[1:])  # the reading has the acceleration's mean since the last sample
+    # the reading has the mean of the acceleration since the last sample
+    late = half * (np.diff(speed, axis=0) * RATE - np.gradient(speed, 1.0 / RATE, axis=0)[1:])
     power, found, at = [0.0], [energies(mooring)], [0.0]
     for first in range(0, len(times), every):
         block = slice(first, first + every)

@@ -18,7 +18,7 @@ from .moordyn_history import SCENES
 from .motions import poses_and_twists
 
 LAWS = (SATURATED, STICK)
-LOOKS = {SATURATED: {"linestyle": "--", "linewidth": 1.3}, STICK: {"linestyle": "-", "linewidth": 1.3}, "CableDyn": {"linestyle": ":", "linewidth": 1.6}}
+LOOKS = {code: {"linestyle": line, "linewidth": 1.4} for code, line in ((SATURATED, "--"), (STICK, "-"), ("CableDyn", ":"))}
 WAVES_AT = (340, 360, 380, 400, 420, 440)  # m of chain from the anchor: nodes on the bed, on which the line lifts off beyond 440 m
 AXIAL_AT = (50, 150, 250, 400)
 TRANSVERSE_AT = (250, 330, 410, 490)
@@ -136,7 +136,7 @@ def axial(quick):
             speed = np.polyfit(chain.times[last], chain.position[last, k, 0], 1)[0]
             rows.append([law, f"{s} m", f"{mean / 1e3:.2f}", f"{closed / 1e3:.2f}", f"{100 * (mean / closed - 1.0):+.2f} %", f"{speed:.4f}"])
             if not quick and abs(mean / closed - 1.0) > GOAL_AXIAL:
-                failed.append(f"friction, axial, {law}: tension {s} m from the free end {100 * (mean / closed - 1.0):+.1f} % of the closed form, goal {100 * GOAL_AXIAL:.0f} %")
+                failed.append(f"friction, axial, {law}: {s} m from the free end {100 * (mean / closed - 1.0):+.1f} %, goal {100 * GOAL_AXIAL:.0f} %")
     header = ["law", "chain behind it", "tension, kN", "friction and drag of what lies behind, kN", "difference", "speed, m/s"]
     return found, tables.table(header, rows), failed
 
@@ -155,7 +155,7 @@ def transverse(quick):
         cells = [f"{s} m", f"{across['CableDyn']:.1f}", f"{tension['CableDyn'] / 1e3:.1f}"]
         rows.append(cells + [cell for law in LAWS for cell in (f"{across[law]:.1f}", f"{100 * change[law]:+.1f} %")])
         if not quick and abs(change[STICK]) > GOAL_TRANSVERSE:
-            failed.append(f"friction, transverse: tension {s} m from the anchor {100 * change[STICK]:+.1f} % of CableDyn's, goal {100 * GOAL_TRANSVERSE:.0f} %")
+            failed.append(f"friction, transverse: {s} m from the anchor {100 * change[STICK]:+.1f} % of CableDyn's, goal {100 * GOAL_TRANSVERSE:.0f} %")
     header = ["from the anchor", "CableDyn: y, m", "tension, kN", "saturated: y, m", "tension", "stick: y, m", "tension"]
     return found, tables.table(header, rows), failed
 

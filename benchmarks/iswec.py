@@ -13,7 +13,7 @@ from mooring_ros.scene import load_scene
 from . import figures, tables
 from .moordyn_history import SCENES
 
-SYSTEMS = {"C2a": ("iswec_c2a.txt", -22.0, 24.0), "C1": ("iswec_c1.txt", -17.0, 22.0)}  # scene, and the range of excursions (m): to where the lines are taut
+SYSTEMS = {"C2a": ("iswec_c2a.txt", -22.0, 24.0), "C1": ("iswec_c1.txt", -17.0, 22.0)}  # scene; excursions (m) to where the lines are taut
 STEP = 1.0  # m
 LOAD_CELL = "line3"
 FINER = 8  # times the scene's segments: with 2.5 m the place of the touchdown moves the load by 2 %
@@ -64,7 +64,7 @@ def run(quick=False):
     for name, (file, least, most) in SYSTEMS.items():
         scene = load_scene(SCENES / file)
         step = 5.0 * STEP if quick else STEP
-        sides = np.arange(0.0, most + 0.5 * step, step), -np.arange(step, 0.5 * step - least, step)  # outward: each solution starts from its neighbour
+        sides = np.arange(0.0, most + 0.5 * step, step), -np.arange(step, 0.5 * step - least, step)  # outward: each from its neighbour
         order = np.argsort(np.concatenate(sides))
         excursions = np.concatenate(sides)[order]
         ours, peer = (np.concatenate([solve(scene, side) for side in sides])[order] for solve in (of_ours, of_moorpy))

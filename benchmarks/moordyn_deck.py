@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from mooring_ros.core.sea import build_sea
 from mooring_ros.scene.description import BODY, COUPLED, COUPLED_PINNED, FIXED, FREE, PINNED, RodEnd
 
 KINDS = {FIXED: "Fixed", COUPLED: "Coupled", FREE: "Free", PINNED: "Pinned", COUPLED_PINNED: "CoupledPinned"}
@@ -65,9 +66,7 @@ def files(scene):
 
 
 def sea_components(environment):
-    """Angular frequencies (rad/s), amplitudes (m) and phases (rad), and the direction (rad): elevation sum a cos(w t - k s - phase), s along the direction."""
-    from mooring_ros.core.sea import build_sea
-
+    """Frequencies (rad/s), amplitudes (m), phases (rad) and direction (rad) of the sea: elevation sum a cos(w t - k s - phase), s along the direction."""
     sea = build_sea(environment)
     if sea.ramp > 0.0:
         raise DeckError("the peer deck does not carry a ramp of the waves")

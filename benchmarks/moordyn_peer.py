@@ -9,7 +9,8 @@ What its users run into, and what is done about it here:
   (``EVALUATED_AT``).
 - ``GetLineFairTen`` is the tension of the end segment, damping included; no weight, drag or inertia of the half segment.
 - A rod without segments takes its direction from its lines, also when it is coupled: an end that is to be clamped needs a rod with a length.
-- The initial state that it finds by itself (from 2.7 on) need not be one: of the RM3 cable it is 8 m off. ``ICgenDynamic`` lets the lines swing out instead.
+- The initial state that it finds by itself (from 2.7 on) need not be one: of the RM3 cable it is 8 m off. ``ICgenDynamic`` lets the lines swing
+  out instead.
 - Output files and the time on the console are switched off.
 """
 

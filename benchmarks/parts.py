@@ -33,7 +33,8 @@ def let_go(scene, times, read):
 
 def sphere(mass, top, length, drag_area):
     """A free sphere on a thread of ``length`` (m) from the platform at height ``top`` (m)."""
-    body = Body(1, FREE, (0.0, 0.0, top - length), mass=mass, inertia=(20.0, 20.0, 20.0), volume=VOLUME, drag_area=(drag_area,) * 6, added_mass=(ADDED,) * 3)
+    water = {"volume": VOLUME, "drag_area": (drag_area,) * 6, "added_mass": (ADDED,) * 3}
+    body = Body(1, FREE, (0.0, 0.0, top - length), mass=mass, inertia=(20.0, 20.0, 20.0), **water)
     points = (Point(1, COUPLED, (0.0, 0.0, top)), Point(2, BODY, (0.0, 0.0, 0.0), body=1))
     return Scene("sphere", "", (THREAD,), points, (Line(1, THREAD, 1, 2, length, 1),), Environment(depth=500.0), bodies=(body,))
 
@@ -50,7 +51,7 @@ def falling():
 
 
 def heaving():
-    """(times, height over the rest (n,) in m, closed form for small heave) of a sphere half as heavy as its water, held 0.5 % of its diameter too high."""
+    """(times, height over the rest (n,) in m, closed form for small heave) of a sphere half as heavy as its water, held 0.5 % of its width too high."""
     mass = 0.5 * RHO * VOLUME
     length = 0.5
     times = 0.01 * np.arange(401)

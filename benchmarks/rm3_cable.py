@@ -193,7 +193,8 @@ def report(histories, without_waves):
     costs = [[name, *(f"{1e3 * x:.1f}" if x else "" for x in (history.cost, without_waves.get(name)))] for name, history in histories.items()]
     content = {"rm3_statistics": tables.table(header, rows), "rm3_cost": tables.table(["CPU ms per simulated s", "in waves", "without"], costs)}
     print("\n\n".join(content.values()), flush=True)
-    pictures = {"rm3_snapshots.png": snapshot_figure(histories), "rm3_attachment.png": attachment_figure(histories), "rm3_statistics.png": statistics_figure(histories)}
+    makers = {"snapshots": snapshot_figure, "attachment": attachment_figure, "statistics": statistics_figure}
+    pictures = {f"rm3_{name}.png": make(histories) for name, make in makers.items()}
     return {"statistics": found, "tables": content, "failed": failed, "figures": pictures}
 
 

@@ -1,7 +1,7 @@
 """Claim: a flat scene turned into a slope, with everything that acts in it, gives the same tensions.
 
-Gravity stays upright, so the line weighs nothing in water: its ends stand below the bed and draw it against it. `stick` is left to tests/core/test_bathymetry.py: it
-begins with a line that is laid down from above, which is not turned.
+Gravity stays upright, so the line weighs nothing in water: its ends stand below the bed and draw it against it. `stick` is left to
+tests/core/test_bathymetry.py: it begins with a line that is laid down from above, which is not turned.
 """
 
 import numpy as np
