@@ -12,6 +12,7 @@ from .core.bending_readings import curvature as curvature_of_nodes
 from .core.energy import energy
 from .core.failures import build_failures
 from .core.forces import evaluate_once
+from .core.friction import NO_FRICTION
 from .core.ground import NO_CONTACT
 from .core.guard import FASTEST
 from .core.layout import Layout
@@ -32,7 +33,10 @@ SOLVERS = ("auto", "explicit")
 MOST_SEGMENTS = 100_000  # of a line
 MOST_STRAIN = 1.0  # of a line in motion, or twice that of the settled one
 NOT_AS_LAID = "statics with friction from the lines as laid did not converge: they hold on to the bed where they lie without friction"
-SWINGS, SWING_TIME = 30, 20.0  # s: how often and how long lines may swing where the statics do not converge at once
+SWINGS, PIECES = 40, 40  # how often lines may swing where the statics do not converge at once, and in how many pieces
+SWING_TIME, LONGER = 20.0, 1.2  # s, and by how much each swing is longer than the last one
+MOST_EFFORT = 5e8  # evaluations times nodes of all swings: some ten seconds
+AT_REST = 1e-5  # of the longest line: moves of a whole swing
 
 
 @dataclass(frozen=True)
@@ -364,12 +368,17 @@ class Mooring:
         if warm and not result.converged:
             return self._static_state(pose)
         best, best_state = result, _copy(state)
-        for _ in range(SWINGS):
-            if best.residual <= self._statics.acceptable or not self._swing(state):
+        effort = 0
+        for swing in range(SWINGS):
+            if best.residual <= self._statics.acceptable or effort > MOST_EFFORT:
                 break
-            result = self._statics.solve(state, self._scratch)
+            took, at_rest = self._swing(state, SWING_TIME * LONGER**swing)
+            effort += took
+            result = self._statics.solve(state, self._scratch, quick=not at_rest)
             if result.residual < best.residual:
                 best, best_state = result, _copy(state)
+            if at_rest:
+                break
         if not best.converged and best.residual <= self._statics.acceptable:
             best = replace(best, tolerance=self._statics.acceptable, converged=True)
         if best.converged and remembers and not warm:
@@ -391,19 +400,33 @@ class Mooring:
             f"{best.residual:.3g} N out of balance, {best.tolerance:.3g} N asked for"
         )
 
-    def _swing(self, state):
-        """Let the lines move for a while with the platform held; False when that runs away."""
+    def _swing(self, state, duration):
+        """Let everything move for `duration` (s) without friction, the platform held, and stop it whenever it has gathered most of its speed.
+
+        Returns the evaluations that it took, times nodes, and whether it has come to rest (or cannot go on).
+        """
+        model = self._model
+        free = model._replace(failures=build_failures([]), ground=model.ground._replace(law=NO_FRICTION))
+        start, effort, before, report, readings = state.position.copy(), 0.0, 0.0, np.zeros(4), new_readings(model, 1)
         state.clock[0] = 0.0
-        state.velocity[:] = 0.0
-        whole = self._model._replace(failures=build_failures([]))
-        evaluate_once(whole, state, self._scratch, 0.0, 0.0, True)
-        samples = np.arange(1, 11) * (0.1 * SWING_TIME)
-        status, _ = explicit.run(
-            whole, state, self._scratch, self._table, samples, np.tile(state.pose, (10, 1)), np.zeros((10, 6)), np.zeros(4),
-            new_readings(self._model, 10),
-        )
-        state.velocity[:] = 0.0
-        return status == explicit.DONE
+        _halt(state)
+        evaluate_once(free, state, self._scratch, 0.0, 0.0, True)
+        for time in np.arange(1, PIECES + 1) * (duration / PIECES):
+            status, _ = explicit.run(
+                free, state, self._scratch, self._table, np.array([time]), state.pose[None].copy(), np.zeros((1, 6)), report, readings
+            )
+            effort += report[0] * model.size
+            energy = (model.mass * state.velocity**2).sum() + (model.rigid.mass[:, None] * state.parts[:, 7:10] ** 2).sum()
+            if energy < before:
+                _halt(state)
+            before = energy if energy >= before else 0.0
+            if status != explicit.DONE:
+                break
+        _halt(state)
+        if state.grip.size:
+            state.grip[3] = NO_CONTACT
+        moved = np.abs(state.position - start).max()
+        return effort, status != explicit.DONE or moved < AT_REST * max(self._statics.lengths)
 
     def _run(self, times, poses, twists, readings):
         if self.fidelity == "quasi_static":
@@ -493,6 +516,11 @@ def _bytes(model):
     """The bytes of all numbers in a model, one after another."""
     for part in model:
         yield from _bytes(part) if isinstance(part, tuple) else (np.asarray(part).tobytes(),)
+
+
+def _halt(state):
+    state.velocity[:] = 0.0
+    state.parts[:, 7:] = 0.0
 
 
 def _copy(state):

@@ -131,10 +131,17 @@ class StaticSolver:
 
     # -- solving ----------------------------------------------------------------------------------------------------------------------
 
-    def solve(self, state, scratch):
-        """Newton from the present positions (and tensions); returns a StaticResult. Positions are the best found, velocities zero."""
+    def solve(self, state, scratch, quick=False):
+        """Newton from the present positions (and tensions); returns a StaticResult. Positions are the best found, velocities zero.
+
+        quick: give up when the first way does not lead there; the positions stay as they were.
+        """
         goal, best = self._begin(state, scratch), _Best()
         iterations = self._with_own_tensions(state, scratch, goal, best)
+        if best.residual > goal and quick:
+            best.take(state, first=True)
+            state.settings[7] = 0.0
+            return StaticResult(iterations, best.residual, goal, False)
         if best.residual > goal and (state.grip[3:] >= 0.0).any():
             best.take(state, first=True)
             iterations += self._mobilise(state, scratch, goal, best)
