@@ -89,6 +89,11 @@ class Mooring:
         self.warnings = self.scene.warnings
         if dt is not None and dt > self.step_limit.dt:
             self.warnings += (f"dt = {dt:g} s is more than the largest step, {self.step_limit.dt:.4g} s ({self.step_limit.limited_by}), which is taken",)
+        if fidelity != "dynamic":
+            env = self.scene.environment
+            idle = [what for what, there in (("waves", env.waves), ("line failures", self.scene.failures), ("creep of ropes", self._model.ropes.kelvin_first.size)) if there]
+            if idle:
+                self.warnings += (f"{fidelity} moorings know no {', '.join(idle)}: still water, lines as they stand, ropes as they settle",)
         self._report = np.zeros(4)
         self._time, self._pose, self._twist = np.zeros(1), np.zeros((1, 7)), np.zeros((1, 6))
         self._settled = False

@@ -77,3 +77,9 @@ def test_snapshots_of_the_cheap_fidelities_are_exact(fidelity):
     for one in (mooring, twin):
         one.step(2.0, HERE + np.array([1.5, 0.2, 0, 0, 0, 0, 0]), STILL)
     assert same_bits(mooring.snapshot(), twin.snapshot())
+
+
+def test_what_a_fidelity_leaves_out_of_a_scene_is_said():
+    file = SCENES / "rm3_cable.txt"
+    assert not any("waves" in warning for warning in Mooring(file).warnings)
+    assert any("know no waves" in warning for warning in Mooring(file, fidelity="quasi_static").warnings)

@@ -11,7 +11,6 @@ from functools import cached_property, lru_cache, wraps
 
 import numba
 import numpy as np
-from llvmlite import ir
 from numba.core import cgutils, types
 from numba.core.extending import NativeValue, models, register_model, typeof_impl, unbox
 from numba.core.imputils import lower_getattr_generic
@@ -33,7 +32,7 @@ class Fields(types.Type):
         return self.cls
 
 
-register_model(Fields)(lambda dmm, fe_type: models.PrimitiveModel(dmm, fe_type, ir.IntType(64)))
+register_model(Fields)(lambda dmm, fe_type: models.PrimitiveModel(dmm, fe_type, cgutils.intp_t))
 
 
 class _Packed:
@@ -131,11 +130,11 @@ class _FieldsAttribute(AttributeTemplate):
 @lower_getattr_generic(Fields)
 def _get_field(context, builder, typ, value, attr):
     kind, first = _LAYOUTS[typ.cls][attr]
-    word = ir.IntType(64)
+    word = cgutils.intp_t
     row = builder.inttoptr(value, word.as_pointer())
 
     def load(index):
-        loaded = builder.load(builder.gep(row, [ir.Constant(word, first + index)]))
+        loaded = builder.load(builder.gep(row, [word(first + index)]))
         loaded.set_metadata("invariant.load", builder.module.add_metadata([]))
         return loaded
 
@@ -149,9 +148,9 @@ def _get_field(context, builder, typ, value, attr):
         array.strides = cgutils.pack_array(builder, [load(3 + kind.ndim + k) for k in range(kind.ndim)])
         return array._getvalue()
     if kind == types.float64:
-        return builder.bitcast(load(0), ir.DoubleType())
+        return builder.bitcast(load(0), context.get_value_type(types.float64))
     if kind == types.boolean:
-        return builder.trunc(load(0), ir.IntType(1))
+        return builder.trunc(load(0), cgutils.bool_t)
     if isinstance(kind, types.UniTuple):
-        return context.make_tuple(builder, kind, [builder.bitcast(load(k), ir.DoubleType()) for k in range(kind.count)])
+        return context.make_tuple(builder, kind, [builder.bitcast(load(k), context.get_value_type(types.float64)) for k in range(kind.count)])
     return load(0)  # a whole number, or the row of a tuple within
