@@ -347,9 +347,9 @@ def ground_blocks(ground, size, position, tangent, bed_stiffness, bed, grip, dia
     for i in range(size):
         n = (bed[1, i], bed[2, i], bed[3, i])
         depth = (bed[0, i] - position[2, i]) * n[2]
-        if not depth > 0.0:
-            continue
         stiffness = bed_stiffness[i]
+        if not depth * stiffness > 0.0:  # in the air, or a mere point
+            continue
         for a in range(3):
             for b in range(3):
                 diagonal[i, a, b] += stiffness * n[a] * n[b]
