@@ -64,7 +64,14 @@ def buoy(draft):
     middle = np.array([rng.uniform(30.0, 100.0), 0.0, -0.2 * length])
     ballast = full * rng.uniform(0.05, 0.7)
     draft.bodies.append(
-        Body(1, FREE, tuple(middle), mass=ballast, centre_of_gravity=(0.0, 0.0, -length * rng.uniform(0.2, 0.6)), inertia=(0.1 * ballast * length**2,) * 3)
+        Body(
+            1,
+            FREE,
+            tuple(middle),
+            mass=ballast,
+            centre_of_gravity=(0.0, 0.0, -length * rng.uniform(0.2, 0.6)),
+            inertia=(0.1 * ballast * length**2,) * 3,
+        )
     )
     draft.rod("body", (0, 0, -0.5 * length), (0, 0, 0.5 * length), int(rng.integers(1, 9)), diameter, full * rng.uniform(0.05, 0.2) / length, 1)
     for k in range(int(rng.integers(2, 5))):
@@ -104,7 +111,8 @@ def clump_on_bridle(draft):
     middle = np.array([draft.depth * rng.uniform(0.2, 0.8), 0.0, 0.0])
     middle[2] = draft.bed(middle[0], 0.0) * rng.uniform(0.3, 0.9)
     mass = draft.line_weight * draft.depth / 9.81 * 10.0 ** rng.uniform(-1.0, 1.0)
-    draft.bodies.append(Body(1, FREE, tuple(middle), mass=mass, centre_of_gravity=(0, 0, -0.2), inertia=(mass,) * 3, volume=mass / RHO * rng.uniform(0.1, 0.9)))
+    volume = mass / RHO * rng.uniform(0.1, 0.9)
+    draft.bodies.append(Body(1, FREE, tuple(middle), mass=mass, centre_of_gravity=(0, 0, -0.2), inertia=(mass,) * 3, volume=volume))
     draft.line(anchor, draft.point("body", (1.0, 0.0, 0.0), body=1), there, middle + [1.0, 0.0, 0.0])
     for side in (-1.0, 1.0):
         own, here = np.array([-1.0, side, 0.0]), np.array([0.0, 10.0 * side, -2.0])

@@ -11,7 +11,7 @@ CHAIN = line_type(0.2, 180.0, 1e9)
 
 
 def rough(coefficient):
-    return Friction(STICK, static_axial=1.1 * coefficient, static_transverse=1.1 * coefficient, kinetic_axial=coefficient, kinetic_transverse=coefficient)
+    return Friction(STICK, 1.1 * coefficient, 1.1 * coefficient, coefficient, coefficient)
 
 
 def across(slope, coefficient, height=0.0):
