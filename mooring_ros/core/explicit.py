@@ -45,10 +45,11 @@ def choose_step(table, span, refined):
 
 
 @stage
-def adapt(model, state, euler_step):
-    """Set what the evaluations depend on from the Euler step (s) of which the scheme is made."""
+def adapt(model, state, euler_step, lag):
+    """Set what the evaluations depend on from the Euler step (s) of which the scheme is made, and the time by which its velocities stand back (s)."""
     state.settings[0] = euler_step / DRAG_SAFETY
     state.settings[1] = euler_step
+    state.settings[8] = lag
     set_bed_relief(model, state, 0.0 if model.ground.on else euler_step)  # ground.py takes the contact implicitly by itself
 
 
@@ -203,7 +204,7 @@ def advance(model, state, scratch, table, time, pose, twist, report):
     for row in range(table.shape[0]):
         largest, smallest = max(largest, table[row, 1]), min(smallest, table[row, 1])
     settings = state.settings
-    previous = (settings[0], settings[1], settings[2], settings[3], settings[4], settings[6])
+    previous = (settings[0], settings[1], settings[2], settings[3], settings[4], settings[6], settings[8])
     if not duration <= MOST_STEPS * largest:
         return TOO_LONG
     a = state.acceleration_of_platform
@@ -228,8 +229,8 @@ def advance(model, state, scratch, table, time, pose, twist, report):
         while True:
             row, steps = choose_step(table, span, refined)
             h = span / steps
-            adapt(model, state, h / table[row, 2])
-            look_at_surface(model, state, SURFACE_MARGIN + span * max(LIKELY_SPEED, ends))
+            adapt(model, state, h / table[row, 2], 0.5 * h if table[row, 0] == LEAPFROG else 0.0)
+            look_at_surface(model, state, SURFACE_MARGIN + model.bulk + span * max(LIKELY_SPEED, ends))
             if again:
                 settings[6] = state.clock[0] + start * duration + 0.5 * h
                 evaluate_again(model, state, scratch)
@@ -247,7 +248,7 @@ def advance(model, state, scratch, table, time, pose, twist, report):
             recall(model, state, scratch, 0)
             for i in range(6):
                 state.acceleration_of_platform[i] = mean_before[i]
-            settings[0], settings[1], settings[2], settings[3], settings[4], settings[6] = previous
+            settings[0], settings[1], settings[2], settings[3], settings[4], settings[6], settings[8] = previous
             set_bed_relief(model, state, 0.0 if model.ground.on else settings[1])
             if settings[2] == 0.0:
                 all_wet(model, state)

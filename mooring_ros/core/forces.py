@@ -4,6 +4,7 @@ from .bending import bend
 from .cache import kernel, stage
 from .clamps import turn_clamps_with_parts
 from .ground import bed_under, contact
+from .hulls import load_free_hulls
 from .inertia import accelerations
 from .packed import entry
 from .points import carry_ends, gather, hold_prescribed, move_free_points
@@ -95,6 +96,8 @@ def evaluate(model, state, scratch, drag_time, bed_step, surfaced, flowing):
         touch_ground(model, state, scratch, bed_step)
     else:
         bed_contact(model, state, bed_step)
+    if model.hulls.point.size > 0:
+        load_free_hulls(model, state)
     accelerations(model, state)
     if model.free_points.size + model.rigid.mass.size > 0:
         gather(model, state, scratch)

@@ -68,6 +68,7 @@ def save(model, state, scratch, place):
     copy_parts(state.parts, scratch.saved_parts[place])
     copy_row(state.creep, scratch.saved_creep[place])
     copy_rows(state.grip, scratch.saved_grip[place])
+    copy_rows(state.clamp_axis, scratch.saved_axes[place])
     copy_row(state.end_point, scratch.saved_ends[place])
     copy_row(state.failed, scratch.saved_failed[place])
 
@@ -82,6 +83,7 @@ def recall(model, state, scratch, place):
     copy_parts(scratch.saved_parts[place], state.parts)
     copy_row(scratch.saved_creep[place], state.creep)
     copy_rows(scratch.saved_grip[place], state.grip)
+    copy_rows(scratch.saved_axes[place], state.clamp_axis)
     copy_row(scratch.saved_ends[place], state.end_point)
     copy_row(scratch.saved_failed[place], state.failed)
 

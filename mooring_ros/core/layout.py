@@ -30,10 +30,11 @@ class Place:
     drag_area: float = 0.0  # CdA, m^2
     added_mass: float = 0.0  # Ca
     attachment: int = -1  # of a coupled one: the output that it belongs to
+    hull: bool = False  # whether a Hull stands there
 
     @property
     def loaded(self):
-        return self.kind == POINT_FREE or self.mass + self.weight + self.volume + self.drag_area > 0.0
+        return self.kind == POINT_FREE or self.hull or self.mass + self.weight + self.volume + self.drag_area > 0.0
 
 
 @dataclass
@@ -47,9 +48,6 @@ class Part:
     centre: np.ndarray = field(default_factory=lambda: np.zeros(3))  # (3,) m, its axes
     inertia: np.ndarray = field(default_factory=lambda: np.zeros((3, 3)))  # kg m^2 about its origin, its axes
     added_surplus: np.ndarray = field(default_factory=lambda: np.zeros((3, 3)))  # m^5: what lumps of added mass on its rods have too much, over rho
-    hull: int = -1  # internal point of the body's own volume
-    hull_drag: tuple = (0.0,) * 6  # CdA, m^2, m^5
-    hull_added: tuple = (0.0,) * 3  # Ca V, m^3
 
     def add(self, mass, centre, inertia):
         """Add a mass (kg) with its centre (3,) m and its inertia (3, 3) about it."""
@@ -58,6 +56,18 @@ class Part:
             self.centre = (self.mass * self.centre + mass * centre) / total
         self.mass = total
         self.inertia += inertia + mass * ((centre @ centre) * np.eye(3) - np.outer(centre, centre))
+
+
+@dataclass
+class Hull:
+    """A body's own volume in the water, at the internal point of its origin."""
+
+    point: int
+    part: int  # that carries it, or NO_PART: the platform does
+    output: int  # of a coupled body
+    turn: tuple  # quaternion from the body's axes to those of the carrier
+    drag_area: tuple  # CdA, m^2, m^5
+    added_volume: tuple  # Ca V, m^3
 
 
 @dataclass
@@ -75,13 +85,13 @@ class RodNodes:
 class Layout:
     """Internal points, parts, rods and outputs of a scene.
 
-    points, parts: lists of Place and Part. rods: dict of rod id -> RodNodes. body_parts: dict of body id -> part of the free ones.
+    points, parts, hulls: lists of Place, Part and Hull. rods: dict of rod id -> RodNodes. body_parts: dict of body id -> part of the free ones.
     outputs: names of the coupled points, rods and bodies.
     """
 
     def __init__(self, scene):
-        self.points, self.parts, self.rods, self.outputs = [], [], {}, []
-        self.output_point, self.output_inertia = [], []  # internal point and (3, 3) inertia of each output
+        self.points, self.parts, self.hulls, self.rods, self.outputs = [], [], [], {}, []
+        self.output_point, self.output_inertia, self.output_surplus = [], [], []  # of each output: see _output
         self._bodies = {body.id: body for body in scene.bodies}
         self.body_parts = {}
         for body in scene.bodies:
@@ -137,10 +147,12 @@ class Layout:
             return POINT_RIDING, position, self.body_parts[body_id]
         return _KINDS[body.kind], np.array(body.position) + turned(body.orientation, position), NO_PART
 
-    def _output(self, name, point, inertia=None):
+    def _output(self, name, point, inertia=0.0, surplus=0.0):
+        """Add an output: its internal point, the inertia (3, 3) that its lumps of mass do not have (kg m^2), and what those of added mass have too much (m^5)."""
         self.outputs.append(name)
         self.output_point.append(point)
-        self.output_inertia.append(np.zeros((3, 3)) if inertia is None else inertia)
+        self.output_inertia.append(inertia + np.zeros((3, 3)))
+        self.output_surplus.append(surplus + np.zeros((3, 3)))
         return len(self.outputs) - 1
 
     def _add_scene_point(self, point):
@@ -174,7 +186,10 @@ class Layout:
                 self._add_rod_mass(self.parts[carried[0][2]], rod, 0.5 * (a + b), axis, length)
         if rod.kind == BODY and carried[0][0] != POINT_RIDING:
             axis = turned(self._bodies[rod.body].orientation, axis)
-        output = self._output(rod.name, first) if carried[0][0] == POINT_COUPLED else -1
+        output = -1
+        if carried[0][0] == POINT_COUPLED:
+            lumped = carried[-1][0] == POINT_COUPLED and length > 0.0  # not those of a pinned one
+            output = self._output(rod.name, first, *(_beside_lumps(rod, axis, length) if lumped else ()))
         for kind, place, part in carried:
             self.points.append(Place(kind, place, part, attachment=output if kind == POINT_COUPLED else -1))
         self.rods[rod.id] = RodNodes(rod.type, range(first, len(self.points)), length, axis, free_joint, carried[-1][2])
@@ -196,13 +211,12 @@ class Layout:
 
     @staticmethod
     def _add_rod_mass(part, rod, centre, axis, length):
-        """Mass of a slender cylinder; and the surplus of its lumped added mass over the continuous one, m L^2/6N^2 about axes across it."""
-        mass, across = rod.type.mass * length, np.eye(3) - np.outer(axis, axis)
-        square = (0.5 * rod.type.diameter) ** 2
-        inertia = mass * (length**2 / 12.0 + square / 4.0) * across + 0.5 * mass * square * np.outer(axis, axis)
-        part.add(mass, centre, inertia)
-        added = 0.25 * np.pi * rod.type.diameter**2 * length * rod.type.added_mass_normal
-        part.added_surplus += added * length**2 / (6.0 * rod.segments**2) * across
+        """Mass of a cylinder, and the surplus of its lumped added mass."""
+        beside, surplus = _beside_lumps(rod, axis, length)
+        mass = rod.type.mass * length
+        lumped = mass * length**2 * (1.0 / 12.0 + 1.0 / (6.0 * rod.segments**2)) * (np.eye(3) - np.outer(axis, axis))
+        part.add(mass, centre, lumped + beside)
+        part.added_surplus += surplus
 
     # -- bodies -----------------------------------------------------------------------------------------------------------------------
 
@@ -216,13 +230,16 @@ class Layout:
         if body.kind == FREE:
             part = self.parts[self.body_parts[body.id]]
             part.add(body.mass, np.array(body.centre_of_gravity, dtype=float), inertia)
-            part.hull, part.hull_drag = first + 1, body.drag_area
-            part.hull_added = tuple(ca * body.volume for ca in body.added_mass)
         else:
             weight.mass = body.mass
-            volume.drag_area, volume.added_mass = np.mean(body.drag_area[:3]), np.mean(body.added_mass)
+        output, turn = -1, (0.0, 0.0, 0.0, 1.0)
         if body.kind == COUPLED:
-            weight.attachment = volume.attachment = self._output(body.name, first + 1, rotation @ inertia @ rotation.T)
+            output, turn = self._output(body.name, first + 1, rotation @ inertia @ rotation.T), body.orientation
+        if body.kind != FIXED:
+            weight.attachment = volume.attachment = output
+            volume.hull = True
+            added = tuple(ca * body.volume for ca in body.added_mass)
+            self.hulls.append(Hull(first + 1, self.body_parts.get(body.id, NO_PART), output, turn, body.drag_area, added))
         self.points += [weight, volume]
 
 
@@ -232,6 +249,15 @@ def _bending_ends(scene):
         for side, at in enumerate((line.end_a, line.end_b)):
             if line.type.bending_stiffness > 0.0 and isinstance(at, RodEnd):
                 yield 2 * index + side, at
+
+
+def _beside_lumps(rod, axis, length):
+    """A cylinder's inertia (3, 3) less that of its lumps (kg m^2), and what lumps of added mass have too much (m^5): m L^2/6N^2 about axes across it."""
+    mass, across = rod.type.mass * length, np.eye(3) - np.outer(axis, axis)
+    square = (0.5 * rod.type.diameter) ** 2
+    thick = mass * square * (0.25 * across + 0.5 * np.outer(axis, axis))
+    surplus = length**2 / (6.0 * rod.segments**2) * across
+    return thick - mass * surplus, 0.25 * np.pi * rod.type.diameter**2 * length * rod.type.added_mass_normal * surplus
 
 
 def turned(quaternion, vector):

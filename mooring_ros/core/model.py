@@ -17,6 +17,7 @@ from .clamps import Clamps, build_clamps
 from .failures import Failures, build_failures, failure_rows
 from .ground import NO_CONTACT, Ground, build_ground
 from .hinges import Bending, build_bending
+from .hulls import Hulls, build_hulls
 from .layout import POINT_COUPLED, POINT_FREE, POINT_RIDING, Layout
 from .packed import packed
 from .ropes import Ropes, build_ropes, rope_damping
@@ -37,9 +38,6 @@ class Rigid(NamedTuple):
     inertia: np.ndarray  # (B, 3, 3) kg m^2
     added_surplus: np.ndarray  # (B, 3, 3) kg m^2: what lumps of added mass on rods have too much, when wet
     pin: np.ndarray  # (B,) internal point that carries the origin, or -1
-    hull: np.ndarray  # (B,) internal point of the body's own volume, or -1
-    hull_drag: np.ndarray  # (B, 6) rho/2 CdA, kg/m and kg m^2
-    hull_added: np.ndarray  # (B, 3) rho V Ca, kg
     riding: np.ndarray  # (R,) internal points
     part: np.ndarray  # (P,) part of every internal point, or -1
     start: np.ndarray  # (B, 7) m and quaternion x, y, z, w, world: where the scene puts it
@@ -74,6 +72,7 @@ class Model(NamedTuple):
     bed_level: float  # z of the bed, m
     natural_speed: float  # m/s that a sound mooring hardly passes while its ends stand still
     reach: float  # m from the platform's reference point to the farthest coupled point
+    bulk: float  # m, radius of the thickest of all
     # ends, (E,)
     end_node: np.ndarray  # index of the line's end node
     # points, (P,)
@@ -86,12 +85,14 @@ class Model(NamedTuple):
     output_of: np.ndarray  # the output that it belongs to, or -1
     # outputs: coupled points, rods and bodies, (O,)
     output_point: np.ndarray  # internal point at which its wrench is given
-    output_inertia: np.ndarray  # (O, 3, 3) kg m^2 about it, platform's axes
+    output_inertia: np.ndarray  # (O, 3, 3) kg m^2, platform's axes: what lumps of mass do not have
+    output_surplus: np.ndarray  # (O, 3, 3) kg m^2: what lumps of added mass on rods have too much, when wet
     # lines, (lines,)
     first_node: np.ndarray
     segments: np.ndarray
     fairlead_end: np.ndarray  # 0 or 1: which end of the line is its fairlead
     rigid: Rigid
+    hulls: Hulls
     ropes: Ropes
     failures: Failures
     bending: Bending
@@ -134,7 +135,7 @@ class State(NamedTuple):
     slaved: np.ndarray  # (n,): whether the node shares its motion with others
     end_point: np.ndarray  # (E,) index of the point that holds the end, or LOOSE
     failed: np.ndarray  # (F,) 1 for a failure that has happened
-    settings: np.ndarray  # (8,) drag time (s), Euler step of stiff local laws (s), 1 if wet shares are computed; refinement of the step, kept until (s); largest strain; time of the evaluation (s), 1 in the statics
+    settings: np.ndarray  # (9,) drag time (s), Euler step of stiff local laws (s), 1 if wet shares are computed; refinement of the step, kept until (s); largest strain; time of the evaluation (s), 1 in the statics; time by which velocities stand back from places (s)
 
 
 @packed
@@ -144,6 +145,7 @@ class Scratch(NamedTuple):
     position: np.ndarray  # (3, n), of a step's start
     velocity: np.ndarray  # (3, n)
     wet_segment: np.ndarray  # (n,)
+    wet_moment: np.ndarray  # (n,)
     saved: np.ndarray  # (2, 6, n): position and velocity at the start of the interval and of the chunk
     tension: np.ndarray  # (n,), before a step's last stage
     motion: np.ndarray  # (8, 3): platform.start_motion
@@ -151,6 +153,7 @@ class Scratch(NamedTuple):
     creep: np.ndarray  # as in State, of a step's start
     saved_parts: np.ndarray  # (2, B, 13), and so on: as `saved`
     saved_creep: np.ndarray
+    saved_axes: np.ndarray  # (2, C, 3)
     saved_ends: np.ndarray  # (2, E)
     saved_failed: np.ndarray  # (2, F)
     saved_grip: np.ndarray  # (2, 4, n) or (2, 4, 0)
@@ -161,7 +164,7 @@ class Scratch(NamedTuple):
     hold: np.ndarray  # (2, n), kg: inertia that stands for the bed's contact, along its normal and in its plane
     wave_work: np.ndarray  # (WORK_SIZE,): waves.refresh
     load: np.ndarray  # (P, 9): force (N) and inertia xx, yy, zz, xy, xz, yz (kg) of what moves with each point
-    matrix: np.ndarray  # (6, 7): equations of motion of a part
+    matrix: np.ndarray  # (6, 8): equations of motion of a part, and work of their solution
 
 
 def with_segments(scene, segments):
@@ -215,6 +218,7 @@ def build(scene, segments=None, layout=None):
         bed_level=-float(env.depth),
         natural_speed=natural_speed(scene),
         reach=max(np.linalg.norm(places[coupled], axis=1), default=0.0),
+        bulk=0.5 * max(rows["diameter"].max(), *diameters),
         end_node=np.array(end_node, dtype=np.int64),
         point_node=point_node,
         point_kind=kinds,
@@ -225,10 +229,12 @@ def build(scene, segments=None, layout=None):
         output_of=np.array([place.attachment for place in layout.points], dtype=np.int64),
         output_point=np.array(layout.output_point, dtype=np.int64),
         output_inertia=np.array(layout.output_inertia, dtype=float).reshape(-1, 3, 3),
+        output_surplus=env.water_density * np.array(layout.output_surplus, dtype=float).reshape(-1, 3, 3),
         first_node=np.array(first_node, dtype=np.int64),
         segments=np.array(counts, dtype=np.int64),
         fairlead_end=np.array(fairlead_end, dtype=np.int64),
         rigid=_rigid(layout, kinds, env),
+        hulls=build_hulls(layout.hulls, env.water_density),
         ropes=build_ropes([(line.type, start, count, line.length / count) for line, start, count in zip(scene.lines, first_node, counts)]),
         failures=_failures(scene, layout),
         bending=_bending(scene, layout, first_node, counts, n),
@@ -251,9 +257,6 @@ def _rigid(layout, kinds, env):
         inertia=rows([part.inertia for part in parts], 3, 3),
         added_surplus=rows([density * part.added_surplus for part in parts], 3, 3),
         pin=rows([part.pin for part in parts], dtype=np.int64),
-        hull=rows([part.hull for part in parts], dtype=np.int64),
-        hull_drag=rows([0.5 * density * np.array(part.hull_drag) for part in parts], 6),
-        hull_added=rows([density * np.array(part.hull_added) for part in parts], 3),
         riding=np.flatnonzero(kinds == POINT_RIDING),
         part=np.array([place.part for place in layout.points], dtype=np.int64),
         start=rows([np.concatenate([part.position, part.turn]) for part in parts], 7),
@@ -409,7 +412,7 @@ def new_state(model, end_point):
         slaved=slaved,
         end_point=end_point.copy(),
         failed=np.zeros(model.failures.point.size, dtype=np.int64),
-        settings=np.array([0.0, 0.0, 0.0, 1.0, 0.0, np.inf, 0.0, 0.0]),
+        settings=np.array([0.0, 0.0, 0.0, 1.0, 0.0, np.inf, 0.0, 0.0, 0.0]),
     )
 
 
@@ -420,6 +423,7 @@ def new_scratch(model):
         position=np.zeros((3, n)),
         velocity=np.zeros((3, n)),
         wet_segment=np.ones(n),
+        wet_moment=np.zeros(n),
         saved=np.zeros((2, 6, n)),
         tension=np.zeros(n),
         motion=np.zeros((8, 3)),
@@ -427,6 +431,7 @@ def new_scratch(model):
         creep=np.zeros(creeping),
         saved_parts=np.zeros((2, parts, 13)),
         saved_creep=np.zeros((2, creeping)),
+        saved_axes=np.zeros((2, model.clamps.part.size, 3)),
         saved_ends=np.zeros((2, model.end_node.size), dtype=np.int64),
         saved_failed=np.zeros((2, model.failures.point.size), dtype=np.int64),
         saved_grip=np.zeros((2, 4, gripping)),
@@ -437,5 +442,5 @@ def new_scratch(model):
         hold=np.zeros((2, n if model.ground.on else 0)),
         wave_work=np.zeros(WORK_SIZE if waving else 0),
         load=np.zeros((model.point_node.size, 9)),
-        matrix=np.zeros((6, 7)),
+        matrix=np.zeros((6, 8)),
     )

@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .cache import kernel, stage
+from .hulls import coupled_hull_load
 from .layout import POINT_COUPLED
 from .model import LOOSE
 from .packed import entry, packed
@@ -90,6 +91,29 @@ def _show_line(model, state, row, readings, line):
 
 
 @stage
+def _wet_share(model, state, o):
+    """Wet share of what an output's lumps stand for."""
+    wet, counted = 0.0, 0.0
+    for i in range(model.coupled_points.size):
+        p = model.coupled_points[i]
+        node = model.point_node[p]
+        if model.output_of[p] == o and node < model.size:
+            share = model.share_left[node] + model.share_right[node]
+            wet, counted = wet + share * state.wet[node], counted + share
+    return wet / max(counted, 1.0)
+
+
+@stage
+def _slow_turning(model, o, wet, spin):
+    """(inertia - wet surplus) spin of output o, platform's axes."""
+    j, s = model.output_inertia[o], model.output_surplus[o]
+    x = dot(j[0], spin) - wet * dot(s[0], spin)
+    y = dot(j[1], spin) - wet * dot(s[1], spin)
+    z = dot(j[2], spin) - wet * dot(s[2], spin)
+    return x, y, z
+
+
+@stage
 def _show_bodies(model, state, row, readings):
     """What the turning of coupled bodies takes, and what clamps and pinned parts hand to the platform."""
     q = (state.pose[3], state.pose[4], state.pose[5], state.pose[6])
@@ -98,13 +122,20 @@ def _show_bodies(model, state, row, readings):
     a = state.acceleration_of_platform
     alpha = (a[3], a[4], a[5])
     for o in range(model.output_point.size):
-        j = model.output_inertia[o]
+        wet = _wet_share(model, state, o)
         spun, slow = rotate(back, alpha), rotate(back, omega)
-        turning = rotate(q, (dot(j[0], spun), dot(j[1], spun), dot(j[2], spun)))
-        momentum = rotate(q, (dot(j[0], slow), dot(j[1], slow), dot(j[2], slow)))
-        gyro = cross(omega, momentum)
+        turning = rotate(q, _slow_turning(model, o, wet, spun))
+        gyro = cross(omega, rotate(q, _slow_turning(model, o, wet, slow)))
         for k in range(3):
             readings.coupled[row, o, 3 + k] -= turning[k] + gyro[k]
+    for h in range(model.hulls.point.size):
+        o = model.hulls.output[h]
+        if o >= 0:
+            p = model.hulls.point[h]
+            force, moment = coupled_hull_load(model, state, h, point_acceleration(model, state, p))
+            _add_to_output(model, state, row, readings, p, model.point_node[p], force)
+            for k in range(3):
+                readings.coupled[row, o, 3 + k] += moment[k]
     for c in range(model.clamps.part.size):
         if model.clamps.riding[c] != 0:
             o = model.output_of[model.bending.clamp_point[c]]

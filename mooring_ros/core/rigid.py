@@ -7,12 +7,14 @@ motion about the part's origin give its acceleration, (m + A) (a + alpha x r + o
 import numpy as np
 
 from .cache import routine, stage
+from .hulls import add_hulls
 from .layout import POINT_COUPLED, POINT_RIDING
 from .model import LOOSE
 from .platform import cross, dot, exponential_coefficients, rotate
 from .points import point_acceleration
 
-SMALLEST_PIVOT = 1e-13  # of the largest: a rod without thickness has no inertia about its axis
+LAG_PASSES = 3
+SMALLEST_PIVOT = 1e-13  # of what stood there: a rod without thickness has no inertia about its axis
 
 
 @routine
@@ -106,8 +108,8 @@ def _add_mass(matrix, m, arm, omega):
 
 @stage
 def _add_body(model, state, b, r, omega, matrix):
-    """Mass, and what water does to the hull and has too much of rods, of part b whose axes stand at r (rows)."""
-    rigid, parts = model.rigid, state.parts
+    """Mass, and what lumps of added mass have too much, of part b whose axes stand at r (rows)."""
+    rigid = model.rigid
     mass = rigid.mass[b]
     centre = _apply(r, (rigid.centre[b, 0], rigid.centre[b, 1], rigid.centre[b, 2]))
     inertia = _turned_matrix(r, rigid.inertia[b])
@@ -131,33 +133,15 @@ def _add_body(model, state, b, r, omega, matrix):
             wet, counted = wet + share * state.wet[node], counted + share
     if counted > 0.0:
         _add_block(matrix, 3, 3, _turned_matrix(r, rigid.added_surplus[b]), -wet / counted)
-    if rigid.hull[b] >= 0:
-        node = model.point_node[rigid.hull[b]]
-        share = state.wet[node]
-        for k in range(3):  # along and about the body's axes
-            e = (r[0][k], r[1][k], r[2][k])
-            speed, spin, surge = 0.0, dot(e, omega), 0.0
-            for j in range(3):
-                speed += e[j] * (state.stream[j, node] - parts[b, 7 + j])
-                surge += e[j] * state.swell[j, node] if state.swell.shape[1] > 0 else 0.0
-            added, resist = share * rigid.hull_added[b, k], share * rigid.hull_drag[b, k] * abs(speed)
-            held = max(added, resist * state.settings[0] - mass)
-            turn = share * rigid.hull_drag[b, 3 + k] * abs(spin)
-            for i in range(3):
-                matrix[i, 6] += e[i] * (resist * speed + added * surge)
-                matrix[3 + i, 6] -= e[i] * turn * spin
-                for j in range(3):
-                    matrix[i, j] += held * e[i] * e[j]
 
 
 @stage
 def _solve(matrix, first):
-    """Solve rows and columns first..5 of the symmetric positive matrix (6, 7) in place; the answer stands in column 6."""
-    largest = 0.0
+    """Solve rows and columns first..5 of the symmetric positive matrix (6, 8) in place; the answer stands in column 6."""
     for i in range(first, 6):
-        largest = max(largest, matrix[i, i])
+        matrix[i, 7] = SMALLEST_PIVOT * matrix[i, i] + 1e-300
     for i in range(first, 6):
-        pivot = 1.0 / max(matrix[i, i], SMALLEST_PIVOT * largest + 1e-300)
+        pivot = 1.0 / max(matrix[i, i], matrix[i, 7])
         for j in range(i + 1, 6):
             factor = matrix[j, i] * pivot
             for k in range(i + 1, 7):
@@ -166,37 +150,46 @@ def _solve(matrix, first):
         total = matrix[i, 6]
         for j in range(i + 1, 6):
             total -= matrix[i, j] * matrix[j, 6]
-        matrix[i, 6] = total / max(matrix[i, i], SMALLEST_PIVOT * largest + 1e-300)
+        matrix[i, 6] = total / max(matrix[i, i], matrix[i, 7])
 
 
 @routine
 def move_parts(model, state, scratch):
-    """Accelerations of the parts from what `points.gather` has put into scratch.load, given to all that rides on them."""
+    """Accelerations of the parts from what `points.gather` has put into scratch.load, given to all that rides on them.
+
+    Where velocities stand back from places by the time settings[8], as leapfrog's do, what depends on the spin is taken with that of the
+    present: from the late one alone a spinning body would gain energy in every step.
+    """
     rigid, parts, matrix, load = model.rigid, state.parts, scratch.matrix, scratch.load
     for b in range(rigid.mass.size):
-        for i in range(6):
-            for j in range(7):
-                matrix[i, j] = 0.0
-        omega = (parts[b, 10], parts[b, 11], parts[b, 12])
-        r = rotation_matrix((parts[b, 3], parts[b, 4], parts[b, 5], parts[b, 6]))
-        _add_body(model, state, b, r, omega, matrix)
-        for i in range(rigid.riding.size):
-            p = rigid.riding[i]
-            if rigid.part[p] == b:
-                arm = _arm(model, state, b, p)
-                m = load[p]
-                _add_load(matrix, arm, (m[0], m[1], m[2]))
-                _add_mass(matrix, ((m[3], m[6], m[7]), (m[6], m[4], m[8]), (m[7], m[8], m[5])), arm, omega)
-        for c in range(model.clamps.part.size):
-            if model.clamps.part[c] == b:
-                for k in range(3):
-                    matrix[3 + k, 6] += state.clamp_moment[c, k]
-        if rigid.pin[b] >= 0:
-            _turn_about_pin(model, state, b, matrix)
-        else:
-            _solve(matrix, 0)
-            for k in range(6):
-                state.parts_acceleration[b, k] = matrix[k, 6]
+        quaternion = (parts[b, 3], parts[b, 4], parts[b, 5], parts[b, 6])
+        r = rotation_matrix(quaternion)
+        lag, omega = state.settings[8], (parts[b, 10], parts[b, 11], parts[b, 12])
+        for _ in range(1 if lag == 0.0 else LAG_PASSES):
+            for i in range(6):
+                for j in range(7):
+                    matrix[i, j] = 0.0
+            _add_body(model, state, b, r, omega, matrix)
+            add_hulls(model, state, b, quaternion, omega, rigid.mass[b], matrix)
+            for i in range(rigid.riding.size):
+                p = rigid.riding[i]
+                if rigid.part[p] == b:
+                    arm = _arm(model, state, b, p)
+                    m = load[p]
+                    _add_load(matrix, arm, (m[0], m[1], m[2]))
+                    _add_mass(matrix, ((m[3], m[6], m[7]), (m[6], m[4], m[8]), (m[7], m[8], m[5])), arm, omega)
+            for c in range(model.clamps.part.size):
+                if model.clamps.part[c] == b:
+                    for k in range(3):
+                        matrix[3 + k, 6] += state.clamp_moment[c, k]
+            if rigid.pin[b] >= 0:
+                _turn_about_pin(model, state, b, matrix)
+            else:
+                _solve(matrix, 0)
+                for k in range(6):
+                    state.parts_acceleration[b, k] = matrix[k, 6]
+            a = state.parts_acceleration[b]
+            omega = (parts[b, 10] + lag * a[3], parts[b, 11] + lag * a[4], parts[b, 12] + lag * a[5])
     _accelerate_riders(model, state)
 
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from .cache import kernel, stage
 from .packed import entry
-
+from .surface import wet_part
 
 
 @entry
@@ -101,25 +101,37 @@ def _drag(model, state, i, diagonal, above, below):
 
 
 @stage
+def _shares_of_ends(left, right, radius):
+    """Wet shares of the left and the right half of a segment whose ends are at these depths (m)."""
+    mean, surplus = wet_part(max(left, right), min(left, right), radius)
+    return (mean - surplus, mean + surplus) if right > left else (mean + surplus, mean - surplus)
+
+
+@stage
 def _buoyancy(model, state, diagonal, above, below):
-    """Loss of buoyancy as the ends of a segment, or a point, rise through the surface (see `wet_shares`)."""
+    """Loss of buoyancy as the ends of a segment, or a point, rise through the surface (see `wet_shares`); differences of the wet shares."""
     z = state.position[2]
     for i in range(model.size):
         if model.live[i + 1] == 0.0:
             continue
-        radius = 0.5 * model.diameter[i + 1]
-        deep = max(-z[i], -z[i + 1]) + radius
-        shallow = min(-z[i], -z[i + 1]) - radius
-        if not (deep > 0.0 > shallow):
+        extent = model.diameter[i + 1] * np.sqrt(max(1.0 - state.tangent[2, i + 1] ** 2, 0.0))
+        radius, span = 0.5 * extent, abs(z[i + 1] - z[i])
+        if not (max(-z[i], -z[i + 1]) > -radius and min(-z[i], -z[i + 1]) < radius):
             continue
-        extent = deep - shallow
-        by_lower, by_upper = -shallow / extent**2, deep / extent**2  # loss of wet share for each metre that an end rises
-        by_left, by_right = (by_lower, by_upper) if z[i] <= z[i + 1] else (by_upper, by_lower)
-        left, right = model.buoyancy[i] * model.share_right[i], model.buoyancy[i + 1] * model.share_left[i + 1]
-        diagonal[i, 2, 2] += left * by_left
-        above[i, 2, 2] += left * by_right
-        below[i + 1, 2, 2] += right * by_left
-        diagonal[i + 1, 2, 2] += right * by_right
+        small = 1e-6 * (span + extent)
+        for column in range(2):
+            left, right = -z[i], -z[i + 1]
+            by = small if column == 0 else 0.0
+            more_left, more_right = _shares_of_ends(left - by, right - (small - by), radius)
+            less_left, less_right = _shares_of_ends(left + by, right + (small - by), radius)
+            at_left = model.buoyancy[i] * model.share_right[i] * (less_left - more_left) / (2.0 * small)
+            at_right = model.buoyancy[i + 1] * model.share_left[i + 1] * (less_right - more_right) / (2.0 * small)
+            if column == 0:
+                diagonal[i, 2, 2] += at_left
+                below[i + 1, 2, 2] += at_right
+            else:
+                above[i, 2, 2] += at_left
+                diagonal[i + 1, 2, 2] += at_right
     for p in range(model.point_node.size):
         node, diameter = model.point_node[p], model.point_diameter[p]
         if diameter > 0.0:
