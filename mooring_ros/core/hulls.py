@@ -9,9 +9,11 @@ from typing import NamedTuple
 import numpy as np
 
 from .cache import stage
+from .packed import packed
 from .platform import dot, rotate
 
 
+@packed
 class Hulls(NamedTuple):
     """H hulls of free bodies, then of coupled ones."""
 
