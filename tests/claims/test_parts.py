@@ -7,7 +7,7 @@ from scenes_in_code import FIXED, HERE, line_type, turn
 from scipy.spatial.transform import Rotation
 from scipy.special import ellipk
 
-from mooring_ros.scene.description import BODY, FREE, PINNED
+from mooring_ros.scene.description import BODY, COUPLED, FREE, PINNED
 
 MASS, VOLUME = 500.0, 0.2
 FEATHER = line_type(np.sqrt(4e-3 / (np.pi * RHO)), 1e-3, 1e5, name="feather")  # weighs nothing in water
@@ -124,3 +124,23 @@ def test_free_symmetric_top_keeps_its_momentum_and_precesses_at_the_closed_form_
     x = np.cross([0.0, 1.0, 0.0], along)
     angle = np.unwrap(np.arctan2(axes[:, 1], axes @ x))
     assert abs(np.polyfit(times, angle, 1)[0]) == pytest.approx(np.linalg.norm(first) / inertia[0], rel=1e-3)
+
+
+@pytest.mark.parametrize("segments", [1, 5])
+def test_coupled_rod_hands_its_inertia_to_the_platform(segments):
+    """At end A, the platform's reference point, without gravity: -m a and m L/2 a with the acceleration, -(m L^2/3 + m d^2/16) alpha with the spin: 1e-6."""
+    mass, length, diameter = 300.0 * 6.0, 6.0, 0.4
+    rods = [(rod_type(diameter, 300.0), COUPLED, (0.0, 0.0, 0.0), (0.0, 0.0, -length), segments)]
+    rod = mooring([], [], rods, water_density=0.0, gravity=0.0, dt=0.005)
+    at = rod.coupled_names.index("rod1")
+    times, a = np.arange(1, 11) * 0.01, 2.0
+    poses, twists = np.tile(HERE, (10, 1)), np.zeros((10, 6))
+    poses[:, 1], twists[:, 1] = 0.5 * a * times**2, a * times
+    rod.settle(HERE)
+    wrench = rod.run(times, poses, twists).coupled_wrenches[-1, at]
+    np.testing.assert_allclose(wrench, [0.0, -mass * a, 0.0, -mass * a * 0.5 * length, 0.0, 0.0], atol=1e-6 * mass * length)
+    poses, twists = np.array([np.append(np.zeros(3), turn([1, 0, 0], 0.5 * a * t**2)) for t in times]), np.zeros((10, 6))
+    twists[:, 3] = a * times
+    rod.settle(HERE)
+    wrench = rod.run(times, poses, twists).coupled_wrenches[-1, at]
+    assert wrench[3] == pytest.approx(-(mass * length**2 / 3.0 + mass * diameter**2 / 16.0) * a, rel=1e-6)
