@@ -33,6 +33,7 @@ class Equations:
         clamps = [(c, freedom.turn_of(model.clamps, c)) for c in range(model.clamps.part.size)] if pattern.rows.size else []
         clamps = [(c, three) for c, three in clamps if three is not None and three < count]
         self._clamps = np.array([c for c, _ in clamps], dtype=np.int64)
+        self._clamp_parts = np.where(model.clamps.part[self._clamps] >= 0, model.clamps.part[self._clamps], freedom.parts)
         axes = n + np.array([three for _, three in clamps], dtype=np.int64)  # threes themselves count as nodes from n on
         segment, right = model.bending.clamp_segment[self._clamps], model.bending.clamp_sign[self._clamps] > 0.0
         ends = np.stack([np.where(right, segment - 1, segment), np.where(right, segment, segment - 1)], axis=1).ravel()
@@ -97,7 +98,8 @@ class Equations:
         free, all_blocks = self._freedom, [blocks.reshape(-1, 3, 3), bent]
         if self._clamps.size:
             turns = turn[self._clamps].reshape(-1, 3, 3)
-            all_blocks += [turns, turns.transpose(0, 2, 1), axis[self._clamps]]
+            held = axis[self._clamps] + 0.5 * skews(state.clamp_moment[self._clamps])  # turns do not commute: a moment's change is no second derivative
+            all_blocks += [turns, turns.transpose(0, 2, 1), held - self._spin_of(state)[self._clamp_parts] @ held]
         if self._turned_nodes.size:
             arms = skews(free.arms(state, self._platform))
             turning = -skews(state.force.T[self._turned_nodes]) @ arms  # d(r x F) = (d theta x r) x F
@@ -117,11 +119,15 @@ class Equations:
             spins[b] = np.outer(u, u)
         return spins
 
+    def _held(self, largest, spin):
+        """Stiffness (..., 3, 3) of turns that nothing else resists, about a slender part's axis all of it; `largest`: of the part's own."""
+        return SPIN_TRACE * np.maximum(largest, self._weight) * np.eye(3) + largest * spin
+
     def _assemble(self, state, *blocks):
         data = np.bincount(self._at, self._values(state, *blocks).ravel(), self._size)
         if self._turns.size:
             largest = np.abs(data[self._turns]).max(axis=(1, 2), keepdims=True)
-            data[self._turns] += SPIN_TRACE * np.maximum(largest, self._weight) * np.eye(3) + largest * self._spin_of(state)[:-1]
+            data[self._turns] += self._held(largest, self._spin_of(state)[:-1])
         data[self._still] = 1.0
         return data
 
@@ -155,4 +161,9 @@ class Equations:
         k = np.arange(3)
         values = self._values(state, *blocks)
         row, col = np.broadcast_arrays(3 * self._rows[:, None, None] + k[:, None], 3 * self._cols[:, None, None] + k)
-        return sparse.csr_matrix((values.ravel(), (row.ravel(), col.ravel())), shape=(self._unknown.size,) * 2)
+        total = sparse.csr_matrix((values.ravel(), (row.ravel(), col.ravel())), shape=(self._unknown.size,) * 2)
+        held = sparse.lil_matrix(total.shape)
+        for b, spin in enumerate(self._spin_of(state)[:-1]):
+            turns = slice(self._freedom.own + 6 * b + 3, self._freedom.own + 6 * b + 6)
+            held[turns, turns] = self._held(abs(total[turns, turns]).max(), spin)
+        return total + held.tocsr()

@@ -258,9 +258,10 @@ def difference(mooring, pose, steps):
 
 
 @pytest.mark.parametrize("pose", [HERE, TILTED], ids=["at rest", "moved and turned"])
-def test_stiffness_with_rods_and_bodies_is_the_derivative_of_the_settled_wrench(pose):
-    """Free, pinned and coupled rods, bodies with arms: 1e-6 of the matrix's scale; without a bed, whose contact has kinks, and without bending."""
-    all_of_it = Mooring(everything(rigidity=0.0, bed_stiffness=0.0, bed_damping=0.0))
+@pytest.mark.parametrize("rigidity", [0.0, 3e4])
+def test_stiffness_with_rods_and_bodies_is_the_derivative_of_the_settled_wrench(pose, rigidity):
+    """Free, pinned and coupled rods, bodies with arms, lines clamped to rods: 1e-6 of the matrix's scale; without a bed, whose contact has kinks."""
+    all_of_it = Mooring(everything(rigidity=rigidity, bed_stiffness=0.0, bed_damping=0.0))
     want = difference(all_of_it, pose, [1e-3] * 3 + [4e-5] * 3)
     all_of_it.settle(pose)
     scale = np.sqrt(np.outer(np.abs(np.diag(want)), np.abs(np.diag(want))))
