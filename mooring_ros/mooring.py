@@ -181,11 +181,7 @@ class Mooring:
             raise ValueError(f"{line_name} has been let go already")
         self._state.end_point[end] = LOOSE
         self._state.slaved[self._model.end_node[end]] = False
-        if self.fidelity == "linear" and self._settled:
-            self._linear = self._linearised(self._linear.pose)
-            self._linear.show(self._state, self.pose, self.twist, 0, self._readings)
-        elif self._settled:
-            self._read_again()
+        self._read_again()
 
     @property
     def unstretched_length(self):
@@ -203,11 +199,7 @@ class Mooring:
         if not 0.0 < length < np.inf:
             raise ValueError(f"length is {length!r}; expected a positive number of metres")
         self._set_lengths((*self._lengths[:line], length, *self._lengths[line + 1 :]))
-        if self.fidelity == "linear" and self._settled:
-            self._linear = self._linearised(self._linear.pose)
-            self._linear.show(self._state, self.pose, self.twist, 0, self._readings)
-        elif self._settled:
-            self._read_again()
+        self._read_again()
 
     @property
     def _lengths(self):
@@ -220,9 +212,14 @@ class Mooring:
         self._prepare()
 
     def _read_again(self):
-        settings = self._state.settings
-        evaluate_once(self._model, self._state, self._scratch, settings[0], settings[1], bool(settings[2]))
-        observe(self._model, self._state, 0, self._readings)
+        """Bring the readings up to date after something other than the motion has changed."""
+        if self.fidelity == "linear" and self._settled:
+            self._linear = self._linearised(self._linear.pose)
+            self._linear.show(self._state, self.pose, self.twist, 0, self._readings)
+        elif self._settled:
+            settings = self._state.settings
+            evaluate_once(self._model, self._state, self._scratch, settings[0], settings[1], bool(settings[2]))
+            observe(self._model, self._state, 0, self._readings)
 
     def snapshot(self):
         """A copy of everything that changes, for `restore`."""
