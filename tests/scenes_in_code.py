@@ -101,6 +101,23 @@ def times_quaternion(p, q):
     return np.append(p[3] * b + q[3] * a + np.cross(a, b), p[3] * q[3] - a @ b)
 
 
+def difference(mooring, pose, steps):
+    """-d wrench / d pose (6, 6) by central differences of fourth order; rotations about the world axes through the reference point."""
+    columns = []
+    for axis, step in enumerate(steps):
+        total = np.zeros(6)
+        for shift, weight in ((1, 8.0), (-1, -8.0), (2, -1.0), (-2, 1.0)):
+            moved = pose.copy()
+            if axis < 3:
+                moved[axis] += shift * step
+            else:
+                moved[3:] = times_quaternion(turn(np.eye(3)[axis - 3], shift * step), pose[3:])
+            mooring.settle(moved)
+            total += weight * mooring.wrench
+        columns.append(-total / (12.0 * step))
+    return np.array(columns).T
+
+
 def surge_heave(times, surge=4.0, heave=3.0, period=14.5, pitch=0.0):
     """Poses (k, 7) and twists (k, 6) of a harmonic motion that starts from rest over one period."""
     w = 2.0 * np.pi / period

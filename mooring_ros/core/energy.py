@@ -6,7 +6,6 @@ import numpy as np
 
 from .bed import bed_at
 from .bending_readings import bending_energy
-from .freedom import skew
 from .platform import rotate
 from .tension import TINY
 
@@ -49,7 +48,7 @@ def _kinetic_of_part(model, state, b, lead):
     speed, spin = (part[k : k + 3] + lead * state.parts_acceleration[b, k - 7 : k - 4] for k in (7, 10))
     turn = np.array([rotate(part[3:7], axis) for axis in np.eye(3)]).T
     centre, inertia = turn @ rigid.centre[b], turn @ (rigid.inertia[b] - rigid.added_surplus[b]) @ turn.T
-    total = 0.5 * rigid.mass[b] * speed @ speed + rigid.mass[b] * speed @ (skew(spin) @ centre) + 0.5 * spin @ inertia @ spin
+    total = 0.5 * rigid.mass[b] * speed @ speed + rigid.mass[b] * speed @ np.cross(spin, centre) + 0.5 * spin @ inertia @ spin
     if rigid.hull[b] >= 0:
         share = state.wet[model.point_node[rigid.hull[b]]]
         total += 0.5 * share * (rigid.hull_added[b] * (turn.T @ speed) ** 2).sum()

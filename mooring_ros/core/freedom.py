@@ -16,10 +16,6 @@ NO_ARM = -1
 ALIGNED = 1e-9  # of the longest arm
 
 
-def skew(v):
-    return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
-
-
 def skews(v):
     """(k, 3, 3) of v (k, 3)."""
     m = np.zeros((len(v), 3, 3))
@@ -107,11 +103,6 @@ class Freedom:
         self._by_arm = np.flatnonzero(self.following.arm != NO_ARM)
         self._columns = _in_threes(self.following.three)
         self._rows = _in_threes(self.following.node)
-
-    @property
-    def rigid(self):
-        """Whether anything in the scene moves as a rigid part."""
-        return self.parts > 0
 
     def arms(self, state, platform=False):
         """(arms, 3) m, of the riders and, with `platform`, of what it carries."""

@@ -16,7 +16,6 @@ from numba.core.extending import NativeValue, models, register_model, typeof_imp
 from numba.core.imputils import lower_getattr_generic
 from numba.core.typing.templates import AttributeTemplate, infer_getattr
 
-WORD = 8  # bytes
 _LAYOUTS = {}  # class -> {field: (numba type, first word)}, from the first tuple that is packed: all of a class have the same types
 
 

@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 from parts_in_code import G, RHO, mooring, rod_type, world
-from scenes_in_code import COUPLED, FIXED, HERE, STILL, line_type, same_bits, times_quaternion, turn
+from scenes_in_code import COUPLED, FIXED, HERE, STILL, difference, line_type, same_bits, times_quaternion, turn
 from scipy.spatial.transform import Rotation
 
 from mooring_ros import Mooring, MooringError
@@ -238,23 +238,6 @@ def test_everything_turned_about_the_vertical_gives_turned_wrenches():
     for row in (0, -1):
         for part in (slice(0, 3), slice(3, 6)):
             np.testing.assert_allclose(b[row][:, part], turned.apply(a[row][:, part]), atol=1e-6 * size[part.start])
-
-
-def difference(mooring, pose, steps):
-    """-d wrench / d pose (6, 6) by central differences of fourth order."""
-    columns = []
-    for axis, step in enumerate(steps):
-        total = np.zeros(6)
-        for shift, weight in ((1, 8.0), (-1, -8.0), (2, -1.0), (-2, 1.0)):
-            moved = pose.copy()
-            if axis < 3:
-                moved[axis] += shift * step
-            else:
-                moved[3:] = times_quaternion(turn(np.eye(3)[axis - 3], shift * step), pose[3:])
-            mooring.settle(moved)
-            total += weight * mooring.wrench
-        columns.append(-total / (12.0 * step))
-    return np.array(columns).T
 
 
 @pytest.mark.parametrize("pose", [HERE, TILTED], ids=["at rest", "moved and turned"])

@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
-from scenes_in_code import HERE, SCENES, line_type, same_bits, scene, table, times_quaternion, turn
+from scenes_in_code import HERE, SCENES, difference, line_type, same_bits, scene, table, times_quaternion, turn
 
 from mooring_ros import Mooring
 from mooring_ros.scene import load_scene
@@ -47,23 +47,6 @@ def test_stiffness_and_force_at_rest_are_those_of_the_catenaries(case, segments)
     assert mooring.wrench[2] == pytest.approx(force[2], rel=0.01)
     np.testing.assert_allclose(mooring.wrench[[0, 1]], 0.0, atol=1e-6 * abs(force[2]))
     np.testing.assert_allclose(mooring.wrench[3:], 0.0, atol=1e-5 * abs(force[2]))
-
-
-def difference(mooring, pose, steps):
-    """-d wrench / d pose (6, 6) by central differences of fourth order; rotations about the world axes through the reference point."""
-    columns = []
-    for axis, step in enumerate(steps):
-        total = np.zeros(6)
-        for shift, weight in ((1, 8.0), (-1, -8.0), (2, -1.0), (-2, 1.0)):
-            moved = pose.copy()
-            if axis < 3:
-                moved[axis] += shift * step
-            else:
-                moved[3:] = times_quaternion(turn(np.eye(3)[axis - 3], shift * step), pose[3:])
-            mooring.settle(moved)
-            total += weight * mooring.wrench
-        columns.append(-total / (12.0 * step))
-    return np.array(columns).T
 
 
 @pytest.mark.parametrize("pose", [HERE, TILTED], ids=["at rest", "moved and turned"])
