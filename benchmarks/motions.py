@@ -88,3 +88,33 @@ class Circle(Periodic):
         shape = self.radius * np.stack([sense * np.sin(w * t), zero, np.cos(w * t)], axis=1)
         slope = self.radius * w * np.stack([sense * np.cos(w * t), zero, -np.sin(w * t)], axis=1)
         return factor[:, None] * shape, factor[:, None] * slope + rate[:, None] * shape
+
+
+@dataclass(frozen=True)
+class Sines(Periodic):
+    """Surge, sway and heave as sums of sines, ramped up smoothly from rest at the zero pose; the same at every run.
+
+    A sea of three components about ``period``: amplitudes in parts of 0.6, 0.3 and 0.2 of those given, at 1, 0.83 and 1.31 times the period, heave a
+    quarter period behind surge, and sway at the third alone.
+    """
+
+    surge: float  # m
+    sway: float  # m
+    heave: float  # m
+    period: float  # s
+    ramp_periods: float = 3.0
+    measured_periods: float = 6.0
+
+    SHARES = ((0.6, 1.0, 0.0), (0.3, 0.83, 1.1), (0.2, 1.31, 2.3))  # of the amplitudes, of the period, phase (rad)
+
+    def displacement(self, t):
+        """Displacement (n, 3) in m and velocity (n, 3) in m/s of the platform at the times t (n,)."""
+        t = np.asarray(t, dtype=float)
+        factor, rate = smooth_ramp(t, self.start)
+        shape, slope = np.zeros((len(t), 3)), np.zeros((len(t), 3))
+        for k, (share, of_period, phase) in enumerate(self.SHARES):
+            w = 2.0 * np.pi / (of_period * self.period)
+            for axis, amplitude, lag in ((0, self.surge, 0.0), (1, self.sway if k == 2 else 0.0, 0.7), (2, self.heave, 0.5 * np.pi)):
+                shape[:, axis] += share * amplitude * np.sin(w * t + phase - lag)
+                slope[:, axis] += share * amplitude * w * np.cos(w * t + phase - lag)
+        return factor[:, None] * shape, factor[:, None] * slope + rate[:, None] * shape
