@@ -57,14 +57,15 @@ class Mooring:
     scene: path of a MoorDyn v2 file, or a `Scene`. fidelity: "dynamic", or "quasi_static": equilibrium at every sample, without inertia, damping
     and drag of the motion, or "linear": the 6 x 6 stiffness, and tensions to first order, about the last settled pose (dt has no meaning in
     these two). solver: "auto" or "explicit". dt: largest step of the solver (s),
-    None for the largest that is stable; a dt beyond that is not taken. segments: segments of every line, None for the file's.
+    None for the largest that is stable; a dt beyond that is not taken. segments: segments of every line, None for the file's; refine: the file's
+    segments of each line times this, rounded, where lines of unlike lengths share a mesh.
 
     pose is (7,): x, y, z (m) and a unit quaternion x, y, z, w; twist is (6,): velocity (m/s) of the reference point and angular velocity
     (rad/s); all in the world frame, z up from the still water level. A line's fairlead is its coupled end (end B if both or none are).
     Raises SceneError for a bad scene, ValueError for bad arguments; MooringError when a computation cannot be completed.
     """
 
-    def __init__(self, scene, fidelity="dynamic", solver="auto", dt=None, segments=None):
+    def __init__(self, scene, fidelity="dynamic", solver="auto", dt=None, segments=None, refine=1.0):
         if fidelity not in FIDELITIES:
             raise ValueError(f"fidelity {fidelity!r} is not built; expected one of {', '.join(FIDELITIES)}")
         if solver not in SOLVERS:
@@ -73,14 +74,18 @@ class Mooring:
             raise ValueError(f"dt is {dt!r}; expected a positive number of seconds, or None")
         if segments is not None and not float(shaped(segments, (), "segments", "a whole number")) in range(1, MOST_SEGMENTS + 1):
             raise ValueError(f"segments is {segments!r}; expected a whole number from 1 to {MOST_SEGMENTS}, or None")
+        if not 0.0 < float(shaped(refine, (), "refine", "a factor")) < np.inf:
+            raise ValueError(f"refine is {refine!r}; expected a positive factor on the file's numbers of segments")
+        if segments is not None and refine != 1.0:
+            raise ValueError(f"segments is {segments!r} and refine is {refine!r}; expected one of the two")
         self.scene = scene if isinstance(scene, Scene) else load_scene(Path(scene))
         self.fidelity = fidelity
         self.solver = "explicit"
-        self._wound = self.scene  # with the lengths that winches have given its lines
+        self._wound = _refined(self.scene, refine)  # and with the lengths that winches have given its lines
         self._segments = None if segments is None else int(segments)
         self._given_dt = dt
         self._layout = layout = Layout(self.scene)
-        self._model, self._ends = build(self.scene, self._segments, layout)
+        self._model, self._ends = build(self._wound, self._segments, layout)
         self._identity = hashlib.sha256(b"".join(_bytes(self._model))).hexdigest()
         self._state = new_state(self._model, self._ends)
         self._scratch = new_scratch(self._model)
@@ -508,6 +513,16 @@ def composed(pose, own):
     a, b, w, v = pose[3:6], own[3:6], pose[6], own[6]
     turn = np.append(w * b + v * a + np.cross(a, b), w * v - a @ b)
     return pose[:3] + np.array(rotate(pose[3:], own[:3])), turn
+
+
+def _refined(scene, factor):
+    """The scene with `factor` times the segments in each line, whole numbers from 1."""
+    if factor == 1.0:
+        return scene
+    counts = [max(1, round(factor * line.segments)) for line in scene.lines]
+    if max(counts) > MOST_SEGMENTS:
+        raise ValueError(f"refine is {factor!r}, which makes {max(counts)} segments in a line; expected at most {MOST_SEGMENTS}")
+    return replace(scene, lines=tuple(replace(line, segments=count) for line, count in zip(scene.lines, counts)))
 
 
 def _rows(readings, rows):

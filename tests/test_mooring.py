@@ -95,6 +95,14 @@ def test_line_between_two_fairleads_and_line_written_from_the_platform():
     np.testing.assert_allclose(one.wrench[:3], one.coupled_wrenches[:, :3].sum(axis=0), rtol=1e-12)
 
 
+def test_refine_scales_the_files_segments_of_each_line():
+    path = SCENES / "rm3_cable.txt"
+    in_file = [line.segments for line in Mooring(path).scene.lines]
+    assert Mooring(path, refine=0.3).segments == [max(1, round(0.3 * count)) for count in in_file]
+    assert settled(refine=1.5).segments == [30] * 3
+    np.testing.assert_array_equal(settled(refine=1.5).wrench, settled(segments=30).wrench)
+
+
 def test_segments_override_the_file():
     mooring = settled(segments=37)
     assert mooring.node_positions("line3").shape == (38, 3)
@@ -167,7 +175,8 @@ def test_settle_refuses_bad_poses_and_changes_nothing(pose):
 
 @pytest.mark.parametrize(
     "options",
-    [{"fidelity": "magic"}, {"solver": "magic"}, {"dt": 0.0}, {"dt": -1.0}, {"dt": np.nan}, {"segments": 0}, {"segments": 2.5}, {"segments": -3}],
+    [{"fidelity": "magic"}, {"solver": "magic"}, {"dt": 0.0}, {"dt": -1.0}, {"dt": np.nan}, {"segments": 0}, {"segments": 2.5}, {"segments": -3}, {"refine": 0.0}, {"refine": np.inf},
+     {"refine": 1e9}, {"refine": 2.0, "segments": 20}],
 )
 def test_bad_options_are_value_errors(options):
     with pytest.raises(ValueError):

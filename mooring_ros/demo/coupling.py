@@ -85,7 +85,7 @@ def _watch(node, floater, progress, interrupted):
 
 def _node_arguments(options, scene, recording):
     parameters = {"scene": str(Path(scene).resolve()), "recording.enabled": True, "recording.path": str(recording.resolve())}
-    for name in ("fidelity", "solver", "dt", "segments"):
+    for name in ("fidelity", "solver", "dt", "segments", "refine"):
         if getattr(options, name) is not None:
             parameters[name] = getattr(options, name)
     words = ["--ros-args"]

@@ -132,7 +132,7 @@ class MooringNode(LifecycleNode):
         scene = load_scene(values["scene"])
         for name in parameters.unknown(self):
             self.get_logger().warning(f"there is no parameter {name}: it is not used")
-        settings = {"fidelity": values["fidelity"], "solver": values["solver"], "dt": values["dt"] or None, "segments": values["segments"] or None}
+        settings = {name: values[name] for name in ("fidelity", "solver", "refine")} | {name: values[name] or None for name in ("dt", "segments")}
         begin = time.monotonic()
         self._warm_up(Mooring(scene, **settings))
         self.get_logger().info(f"compiled in {time.monotonic() - begin:.1f} s")

@@ -35,6 +35,7 @@ TABLE = (
     Entry("solver", "auto", "Time integration of the dynamic lines.", fixed=True, choices=SOLVERS),
     Entry("dt", 0.0, "Internal time step (s); 0: chosen from the stability limits of the scene.", fixed=True, high=1e3),
     Entry("segments", 0, "Segments of each line; 0: as in the scene.", fixed=True, high=100_000),
+    Entry("refine", 1.0, "The scene's segments of each line times this; not with segments.", fixed=True, low=_TINY, high=1e5),
     Entry("input", "odometry", "Topics of the platform's motion: platform/odom; platform/pose and platform/twist with equal stamps; or platform/pose alone.",
           fixed=True, choices=INPUTS),
     Entry("world_frame", "", "Frame that the motion is given in; others are refused. Empty: that of the first sample.", fixed=True),

@@ -13,11 +13,12 @@ from .console import reading
 
 
 def add_model_arguments(parser):
-    """--fidelity, --solver, --dt, --segments: how the scene is computed. Left out, the scene decides."""
+    """--fidelity, --solver, --dt, --segments, --refine: how the scene is computed. Left out, the scene decides."""
     parser.add_argument("--fidelity", type=fidelity, metavar="F", help="how much physics: linear, quasi_static or dynamic (default: dynamic)")
     parser.add_argument("--solver", type=solver, metavar="S", help="how the dynamics are stepped: explicit or auto (default: auto)")
     parser.add_argument("--dt", type=positive, metavar="S", help="time step in s (default: the largest stable one, with a margin)")
     parser.add_argument("--segments", type=count, metavar="N", help="segments of every line (default: as in the scene)")
+    parser.add_argument("--refine", type=positive, metavar="X", help="the scene's segments of each line times this; not with --segments")
 
 
 def fidelity(text):
@@ -73,11 +74,11 @@ def pose(text):
     return np.concatenate([numbers[:3], quaternion_from_degrees(*numbers[3:])])
 
 
-def load_mooring(scene, fidelity=None, solver=None, dt=None, segments=None):
+def load_mooring(scene, fidelity=None, solver=None, dt=None, segments=None, refine=None):
     """A Mooring for a scene (path of it, or of a recording that holds it) and options where None means the default. Raises UsageError for bad input."""
     from mooring_ros.mooring import Mooring
 
-    chosen = {"fidelity": fidelity, "solver": solver, "dt": dt, "segments": segments}
+    chosen = {"fidelity": fidelity, "solver": solver, "dt": dt, "segments": segments, "refine": refine}
     with reading(scene):
         return Mooring(_recorded_scene(scene) or scene, **{name: value for name, value in chosen.items() if value is not None})
 

@@ -15,6 +15,7 @@ DEFAULTS = {
     "solver": "auto",
     "dt": 0.0,
     "segments": 0,
+    "refine": 1.0,
     "input": "odometry",
     "convention": "enu",
     "twist_frame": "child",
@@ -22,7 +23,7 @@ DEFAULTS = {
     "scale": 1.0,
     "density_ratio": 1.0,
 }
-MODEL = ("fidelity", "solver", "dt", "segments")
+MODEL = ("fidelity", "solver", "dt", "segments", "refine")
 AXES_AND_SCALE = ("input", "convention", "twist_frame", "wrench_frame", "scale", "density_ratio")
 
 
