@@ -103,25 +103,42 @@ def _place(scene, rods, end):
     return scene.point(end).position
 
 
-def deck(scene, chain, step, duration, segments=1, curvature_at=(), friction=None):
-    """CableDyn's input text for one chain; ``curvature_at``: indices of nodes whose curvature is wanted; ``friction``: (axial, transverse)."""
-    env = scene.environment
+def deck(scene, lines, step, duration, segments=1, curvature_at=(), friction=None, outputs="pt", options=()):
+    """CableDyn's input text for chains, each a line with ends of its own.
+
+    ``curvature_at``: indices of nodes of the first line whose curvature is wanted; ``friction``: (axial, transverse); ``outputs``: flags of its own files of
+    each line; ``options``: further rows of OPTIONS.
+    """
+    rows = [*_heading(scene), "------- POINTS -------", "ID Type X Y Z", "(-) (-) (m) (m) (m)"]
+    for k, chain in enumerate(lines):
+        rows += [_row(2 * k + 1, "Coupled", *map(float, chain.top)), _row(2 * k + 2, "Fixed", *map(float, chain.anchor))]
+    rows += ["------- LINES -------", "ID NodeA NodeB Outputs", "(-) (-) (-) (-)"]
+    rows += [_row(k + 1, 2 * k + 1, 2 * k + 2, outputs) for k in range(len(lines))]
+    rows += ["------- SECTIONS -------", "LineID LineType Length NumSegs", "(-) (-) (m) (-)"]
+    rows += [_row(k + 1, n.type.name, float(n.length), _whole(n.segments * segments)) for k, chain in enumerate(lines) for n in chain.sections]
+    clamped = [(k, chain.clamp) for k, chain in enumerate(lines) if chain.clamp is not None]
+    if clamped:
+        rows += ["------- END CONNECTIONS -------", "LineID End Stiffness EzX EzY EzZ", "(-) (-) (N-m/rad) (-) (-) (-)"]
+        rows += [_row(k + 1, "A", "Rigid", *map(float, clamp)) for k, clamp in clamped]
+    rows += _options(scene, step, duration, friction, options)
+    rows += ["------- OUTPUTS -------", *(f'"FairTen{k + 1}"' for k in range(len(lines))), *(f'"Curv1N{k + 1}"' for k in curvature_at)]
+    return "\n".join([*rows, "------- need this line -------", ""])
+
+
+def _heading(scene):
     rows = ["------- CableDyn Input File -------", "mooring_ros benchmark", "------- LINE TYPES -------"]
     rows += ["TypeName Diam MassDenInAir EA BA EI Cd_n Cd_t Ca_n Ca_t", "(-) (m) (kg/m) (N) (-) (N-m2) (-) (-) (-) (-)"]
-    for k in {n.type.name: n.type for n in chain.sections}.values():
+    for k in {n.type.name: n.type for n in scene.lines}.values():
         if k.curve or k.slow_stiffness:
             raise PeerError(f"the peer deck does not carry the rope {k.name}")
         values = (k.diameter, k.mass, k.stiffness, k.damping, k.bending_stiffness, k.drag_normal, k.drag_axial, k.added_mass_normal, k.added_mass_axial)
         rows.append(_row(k.name, *map(float, values)))
-    rows += ["------- POINTS -------", "ID Type X Y Z", "(-) (-) (m) (m) (m)"]
-    rows += [_row(1, "Coupled", *map(float, chain.top)), _row(2, "Fixed", *map(float, chain.anchor))]
-    rows += ["------- LINES -------", "ID NodeA NodeB Outputs", "(-) (-) (-) (-)", "1 1 2 pt"]
-    rows += ["------- SECTIONS -------", "LineID LineType Length NumSegs", "(-) (-) (m) (-)"]
-    rows += [_row(1, n.type.name, float(n.length), n.segments * segments) for n in chain.sections]
-    if chain.clamp is not None:
-        rows += ["------- END CONNECTIONS -------", "LineID End Stiffness EzX EzY EzZ", "(-) (-) (N-m/rad) (-) (-) (-)"]
-        rows.append(_row(1, "A", "Rigid", *map(float, chain.clamp)))
-    rows += ["------- OPTIONS -------", f"{env.gravity!r} g", f"{env.water_density!r} rhoW"]
+    return rows
+
+
+def _options(scene, step, duration, friction, options):
+    env = scene.environment
+    rows = ["------- OPTIONS -------", f"{env.gravity!r} g", f"{env.water_density!r} rhoW"]
     rows += [f"{env.bed_stiffness!r} kBot", f"{env.bed_damping!r} cBot"]
     rows.append("depths.txt bathymetryFile" if env.bathymetry else f"{float(env.depth)!r} WtrDpth")
     rows += [f"{float(step)!r} dtM", f"{float(duration)!r} TMax", "motion.txt motionFile"]
@@ -129,8 +146,11 @@ def deck(scene, chain, step, duration, segments=1, curvature_at=(), friction=Non
         rows.append("7 WaveKin")
     if friction is not None:
         rows += [f"{friction[0]!r} frictionMuAxial", f"{friction[1]!r} frictionMuLateral"]
-    rows += ["------- OUTPUTS -------", '"FairTen1"', *(f'"Curv1N{k + 1}"' for k in curvature_at), "------- need this line -------", ""]
-    return "\n".join(rows)
+    return [*rows, *options]
+
+
+def _whole(segments):
+    return max(1, round(segments))
 
 
 def run(scene, chain, motion, step, duration, segments=1, curvature=True, friction=None, folder=None):
@@ -142,8 +162,8 @@ def run(scene, chain, motion, step, duration, segments=1, curvature=True, fricti
     with tempfile.TemporaryDirectory(prefix="cabledyn_") as temporary:
         folder = Path(folder or temporary)
         texts = {name: text for name, text in files(scene).items() if name == WAVES}
-        texts["deck.dat"] = deck(scene, chain, step, steps * step, segments, wanted, friction)
-        texts["motion.txt"] = _motion(times, chain, motion)
+        texts["deck.dat"] = deck(scene, [chain], step, steps * step, segments, wanted, friction)
+        texts["motion.txt"] = prescribed(times, {1: chain.top}, motion)
         if scene.environment.bathymetry is not None:
             texts["depths.txt"] = _depths(scene.environment.bathymetry)
         for name, text in texts.items():
@@ -160,12 +180,16 @@ def run(scene, chain, motion, step, duration, segments=1, curvature=True, fricti
     return Run(main[:, 0], position.reshape(len(main), len(arc), 3), tension, bent, arc, wall, steps * step)
 
 
-def _motion(times, chain, motion):
-    place, velocity = motion.displacement(times)
+def prescribed(times, places, motion):
+    """Text of the motion file: each coupled point (id: place (3,) m) with position, velocity and acceleration at the times (n,)."""
+    moved, velocity = motion.displacement(times)
     before, after = np.maximum(times - 1e-4, 0.0), times + 1e-4
     acceleration = (motion.displacement(after)[1] - motion.displacement(before)[1]) / (after - before)[:, None]
-    rows = np.column_stack([np.asarray(chain.top) + place, velocity, acceleration])
-    return "\n".join(f"{t:.12g} 1 " + " ".join(f"{x:.12e}" for x in row) for t, row in zip(times, rows, strict=True)) + "\n"
+    rows = []
+    for k, t in enumerate(times):
+        rest = " ".join(f"{x:.12e}" for x in (*velocity[k], *acceleration[k]))
+        rows += [f"{t:.12g} {which} " + " ".join(f"{x:.12e}" for x in np.add(place, moved[k])) + f" {rest}" for which, place in places.items()]
+    return "\n".join(rows) + "\n"
 
 
 def _depths(grid):

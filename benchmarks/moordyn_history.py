@@ -25,9 +25,9 @@ INTERVAL = 0.05  # s
 REFINEMENT = 10  # steps in a segment's transit time
 
 
-def transit_time(scene, segments):
-    """Time (s) in which an axial wave runs through the shortest segment."""
-    return min(n.length / segments * np.sqrt(n.type.mass / n.type.stiffness) for n in scene.lines)
+def transit_time(scene, segments=None):
+    """Time (s) in which an axial wave runs through the segment that it crosses soonest; ``segments`` of every line, None for the scene's."""
+    return min(n.length / (segments or n.segments) * np.sqrt(n.type.mass / n.type.stiffness) for n in scene.lines)
 
 
 def load():

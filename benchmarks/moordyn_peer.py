@@ -118,19 +118,21 @@ def _advance(system, lines, drive, dt, scheme, every, probe):
     times, tensions, probed = [], [], []
     step, tension = moordyn.Step, moordyn.GetLineFairTen
     late = (1.0 - EVALUATED_AT.get(scheme.lower(), 1.0)) * dt
-    done, cpu, now = 0, 0.0, 0.0
+    done, cpu, now, clock = 0, 0.0, 0.0, time.process_time
     try:
         for block in drive.blocks():
-            began = time.process_time()
+            began = clock()
             for now, position, velocity in block:
                 step(system, position, velocity, now, drive.call)
                 done += 1
                 if done % every == 0:
+                    paused = clock()
                     times.append(now + drive.call - late)
                     tensions.append([tension(n) for n in lines])
                     if probe is not None:
                         probed.append(probe(lines))
-            cpu += time.process_time() - began
+                    began += clock() - paused
+            cpu += clock() - began
     except (RuntimeError, ValueError) as error:
         raise PeerError(f"MoorDyn stopped at {now:.3f} s: {error}") from None
     tensions = np.array(tensions)

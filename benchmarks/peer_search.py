@@ -1,0 +1,113 @@
+"""The peers' best settings: MoorDyn's scheme and largest step, CableDyn's mesh and step, that stay within an error. Each run is kept (`peer_cache`)."""
+
+from dataclasses import dataclass
+
+from .peer_runs import error, of_cabledyn, of_moordyn, transit
+
+# MoorDyn's schemes, with the step as a multiple of a segment's axial transit time from which the search for the largest one begins
+SCHEMES = {
+    "Euler": 0.4, "Heun": 0.4, "RK2": 0.6, "RK4": 0.9, "ACA3": 0.6, "Midpoint3": 1.1, "Midpoint4": 1.6, "Midpoint5": 2.1, "Midpoint6": 2.6, "Midpoint8": 3.2, "BEuler4": 1.2,
+}  # fmt: skip
+FEW = ("Euler", "RK2", "Midpoint4", "Midpoint6")
+CLOSE = 1.07  # the search ends when a step that will not do is this much larger than one that does
+SMALLEST = 0.02  # transit times
+MESHES = (0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8)  # CableDyn's elements for each segment of the case
+STEPS_IN_A_PERIOD = (25, 35, 50, 70, 100, 140, 200, 280, 400)
+PERIOD = 10.0  # s, of motions without one
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A run of a peer."""
+
+    name: str  # scheme or mesh
+    dt: float  # s
+    refinement: float
+    error: float  # inf where it failed
+    cost: float  # s/s
+    failure: str = ""
+
+    def label(self):
+        """For a table."""
+        step = f"{1e3 * self.dt:.3g} ms"
+        return f"{self.name}, {step}" if self.name else step
+
+
+def moordyn_reference(case, refinement=1, fine=10):
+    """Its converged run on a mesh: RK2, ``fine`` steps in a segment's transit time."""
+    return of_moordyn(case, "RK2", rounded(transit(case, refinement) / fine), refinement)
+
+
+def rounded(step):
+    """A step (s) of three digits, as a user would write it."""
+    return float(f"{step:.3g}")
+
+
+def moordyn_settings(case, reference, allowed, schemes=tuple(SCHEMES), refinement=1, what="tension"):
+    """Every run of a search for each scheme's largest step with an error against ``reference`` of at most ``allowed``."""
+    motion, unit = case.platform(), transit(case, refinement)
+    tried = {}
+
+    def good(scheme, multiple):
+        dt = rounded(multiple * unit)
+        if (scheme, dt) not in tried:
+            run = of_moordyn(case, scheme, dt, refinement)
+            tried[scheme, dt] = Setting(scheme, dt, refinement, error(run, reference, motion, what), run.cost, run.failure)
+        return tried[scheme, dt].error <= allowed
+
+    for scheme in schemes:
+        low, high = SCHEMES[scheme], None
+        while not good(scheme, low) and low > SMALLEST:
+            low, high = 0.6 * low, low
+        if low <= SMALLEST:
+            continue
+        while high is None:
+            if good(scheme, 1.5 * low):
+                low *= 1.5
+            else:
+                high = 1.5 * low
+        while high > CLOSE * low:
+            middle = (low * high) ** 0.5
+            low, high = (middle, high) if good(scheme, middle) else (low, middle)
+    return list(tried.values())
+
+
+def cabledyn_reference(case, refinement=4, steps=800):
+    """Its run converged in space and time."""
+    return of_cabledyn(case, rounded(period(case) / steps), refinement)
+
+
+def cabledyn_settings(case, reference, meshes=MESHES, steps=STEPS_IN_A_PERIOD):
+    """Every run of a search over meshes and steps; from a mesh's finest step that does no better than the next coarser one the search goes on."""
+    motion, tried = case.platform(), []
+    for mesh in meshes:
+        previous = None
+        for count in steps:
+            run = of_cabledyn(case, rounded(period(case) / count), mesh)
+            found = Setting(f"mesh x {mesh:g}", rounded(period(case) / count), mesh, error(run, reference, motion), run.cost, run.failure)
+            tried.append(found)
+            if previous is not None and found.error > 0.9 * previous.error and found.error < 1.0:
+                break
+            previous = found
+    return tried
+
+
+def period(case):
+    """Of the motion (s)."""
+    return getattr(case.platform(), "period", PERIOD)
+
+
+def best(settings, allowed):
+    """The cheapest within the error; None where there is none."""
+    good = [s for s in settings if s.error <= allowed]
+    return min(good, key=lambda s: s.cost) if good else None
+
+
+def front(settings):
+    """Those that no other is both cheaper and more accurate than, from the cheapest."""
+    chosen, least = [], float("inf")
+    for s in sorted((s for s in settings if s.error < float("inf")), key=lambda s: s.cost):
+        if s.error < least:
+            chosen.append(s)
+            least = s.error
+    return chosen
