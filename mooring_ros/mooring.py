@@ -445,10 +445,12 @@ class Mooring:
         )
         if status != explicit.DONE:
             cause = {
-                explicit.RUNAWAY: f"ran away (speeds that nothing here can cause) even with a step of {self.step_limit.dt / explicit.FINEST:.3g} s",
-                explicit.OVERSTRETCHED: f"stretches a line by more than {100.0 * self._state.settings[5]:.0f} % of its length",
+                explicit.RUNAWAY: f"ran away (speeds that nothing here can cause) even with a step of {self.step_limit.dt / explicit.FINEST:.3g} s; "
+                "expected a smoother motion, or a smaller dt",
+                explicit.OVERSTRETCHED: f"stretches a line by more than {100.0 * self._state.settings[5]:.0f} % of its length; "
+                "settle() at a pose that the platform is to be put to, or let it take its time",
                 explicit.TOO_LONG: f"needs more than {explicit.MOST_STEPS:g} steps of {self.step_limit.dt:.3g} s; expected shorter intervals",
-                explicit.TOO_FAST: f"moves the platform faster than {FASTEST:g} m/s",
+                explicit.TOO_FAST: f"moves the platform faster than {FASTEST:g} m/s; settle() at a pose that the platform is to be put to",
             }[status]
             error = MooringError(f"the step to t = {times[done]:.6g} s {cause}; the mooring stands at t = {self.time:.6g} s")
             error.samples = done
