@@ -41,8 +41,8 @@ def interval(motion):
     return min(SAMPLE, getattr(motion, "period", 10.0) / 100.0)
 
 
-def of_moordyn(case, scheme, dt, refinement=1, fresh=False):
-    """MoorDyn with its internal step dt (s), called at every step with the chord of the motion."""
+def of_moordyn(case, scheme, dt, refinement=1, fresh=False, steps_per_call=1):
+    """MoorDyn with its internal step dt (s), called at every step, or at every so many, with the chord of the motion."""
     import moordyn
 
     scene, motion = case.scene(refinement), case.platform()
@@ -56,13 +56,13 @@ def of_moordyn(case, scheme, dt, refinement=1, fresh=False):
     def make():
         options = ("1 ICgenDynamic",) if scene.rods or any(p.kind == "free" for p in scene.points) else ()
         try:
-            run = moordyn_peer.run(scene, motion, dt, scheme, sample=interval(motion), options=options, probe=forces, friction=True)
+            run = moordyn_peer.run(scene, motion, dt, scheme, steps_per_call=steps_per_call, sample=interval(motion), options=options, probe=forces)
         except moordyn_peer.PeerError as error:
             return {"failure": np.array(str(error))}
         return {"times": run.times, "probed": run.probed, "cpu": run.cpu, "simulated": run.simulated}
 
     key = peer_cache.text_of(moordyn_peer.deck(scene, dt, scheme), motion, ends, interval(motion), "forces")
-    found = make() if fresh else peer_cache.kept("moordyn", key, make)
+    found = make() if fresh or steps_per_call > 1 else peer_cache.kept("moordyn", key, make)
     if "failure" in found:
         return failed(found["failure"])
     probed = found["probed"]
