@@ -11,6 +11,8 @@ SCHEMES = {
 FEW = ("Euler", "RK2", "Midpoint4", "Midpoint6")
 CLOSE = 1.07  # the search ends when a step that will not do is this much larger than one that does
 SMALLEST = 0.02  # transit times
+MOORDYN_MESHES = (0.5, 0.7, 1.0, 1.4, 2.0)
+NEAR_LARGEST = {"Euler": (0.3, 0.6), "RK2": (0.3, 0.6, 0.95), "Midpoint4": (1.6, 2.4), "Midpoint6": (3.4,)}  # steps in transit times
 MESHES = (0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8)  # CableDyn's elements for each segment of the case
 STEPS_IN_A_PERIOD = (25, 35, 50, 70, 100, 140, 200, 280, 400)
 PERIOD = 10.0  # s, of motions without one
@@ -43,16 +45,16 @@ def rounded(step):
     return float(f"{step:.3g}")
 
 
-def moordyn_settings(case, reference, allowed, schemes=tuple(SCHEMES), refinement=1, what="tension"):
-    """Every run of a search for each scheme's largest step with an error against ``reference`` of at most ``allowed``."""
-    motion, unit = case.platform(), transit(case, refinement)
+def moordyn_settings(case, reference, allowed, schemes=tuple(SCHEMES)):
+    """Every run of a search for each scheme's largest step on the case's mesh with an error of the tension against ``reference`` of at most ``allowed``."""
+    motion, unit = case.platform(), transit(case)
     tried = {}
 
     def good(scheme, multiple):
         dt = rounded(multiple * unit)
         if (scheme, dt) not in tried:
-            run = of_moordyn(case, scheme, dt, refinement)
-            tried[scheme, dt] = Setting(scheme, dt, refinement, error(run, reference, motion, what), run.cost, run.failure)
+            run = of_moordyn(case, scheme, dt)
+            tried[scheme, dt] = Setting(scheme, dt, 1.0, error(run, reference, motion, "tension"), run.cost, run.failure)
         return tried[scheme, dt].error <= allowed
 
     for scheme in schemes:
@@ -72,19 +74,31 @@ def moordyn_settings(case, reference, allowed, schemes=tuple(SCHEMES), refinemen
     return list(tried.values())
 
 
+def moordyn_grid(case, reference, measure=error):
+    """Runs over meshes, schemes and steps near their largest, with their errors in space and time."""
+    motion, tried = case.platform(), []
+    for mesh in MOORDYN_MESHES:
+        for scheme, multiples in NEAR_LARGEST.items():
+            for multiple in multiples:
+                dt = rounded(multiple * transit(case, mesh))
+                run = of_moordyn(case, scheme, dt, mesh)
+                tried.append(Setting(f"{scheme}, mesh x {mesh:g}", dt, mesh, measure(run, reference, motion), run.cost, run.failure))
+    return tried
+
+
 def cabledyn_reference(case, refinement=4, steps=800):
     """Its run converged in space and time."""
     return of_cabledyn(case, rounded(period(case) / steps), refinement)
 
 
-def cabledyn_settings(case, reference, meshes=MESHES, steps=STEPS_IN_A_PERIOD):
+def cabledyn_settings(case, reference, measure=error, meshes=MESHES, steps=STEPS_IN_A_PERIOD):
     """Every run of a search over meshes and steps; from a mesh's finest step that does no better than the next coarser one the search goes on."""
     motion, tried = case.platform(), []
     for mesh in meshes:
         previous = None
         for count in steps:
             run = of_cabledyn(case, rounded(period(case) / count), mesh)
-            found = Setting(f"mesh x {mesh:g}", rounded(period(case) / count), mesh, error(run, reference, motion), run.cost, run.failure)
+            found = Setting(f"mesh x {mesh:g}", rounded(period(case) / count), mesh, measure(run, reference, motion), run.cost, run.failure)
             tried.append(found)
             if previous is not None and found.error > 0.9 * previous.error and found.error < 1.0:
                 break
