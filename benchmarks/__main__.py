@@ -9,7 +9,7 @@ from pathlib import Path
 from . import machine, tables
 
 BENCHMARKS = {
-    "peer_moordyn": "OC4 and VolturnUS-S chains against MoorDyn: cost at 1 % error, and both codes' converged runs",
+    "peer_moordyn": "OC4 and VolturnUS-S chains: how far the converged runs of MoorDyn and ours are apart",
     "peer_cost": "what a simulated second costs beside MoorDyn's and CableDyn's best, at the same error (the peers' runs are kept)",
     "closed_forms": "statics and platform stiffness against closed forms",
     "kernel_cost": "ns for one node and force evaluation, against a bare vector kernel",

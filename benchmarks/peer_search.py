@@ -95,14 +95,14 @@ def cabledyn_settings(case, reference, measure=error, meshes=MESHES, steps=STEPS
     """Every run of a search over meshes and steps; from a mesh's finest step that does no better than the next coarser one the search goes on."""
     motion, tried = case.platform(), []
     for mesh in meshes:
-        previous = None
+        row = []
         for count in steps:
             run = of_cabledyn(case, rounded(period(case) / count), mesh)
             found = Setting(f"mesh x {mesh:g}", rounded(period(case) / count), mesh, measure(run, reference, motion), run.cost, run.failure)
-            tried.append(found)
-            if previous is not None and found.error > 0.9 * previous.error and found.error < 1.0:
+            row.append(found)
+            if len(row) > 3 and 0.9 * row[-2].error < found.error < 1.0:
                 break
-            previous = found
+        tried += row
     return tried
 
 
