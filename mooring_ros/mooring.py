@@ -16,7 +16,8 @@ from .core.friction import NO_FRICTION
 from .core.ground import NO_CONTACT
 from .core.guard import FASTEST
 from .core.layout import Layout
-from .core.linear import LinearResponse, linearise
+from .core.linear import linearise
+from .core.linear_range import LinearRange
 from .core.model import LOOSE, State, build, new_scratch, new_state
 from .core.readings import new_readings, observe
 from .core.schemes import LEAPFROG, step_table
@@ -47,7 +48,7 @@ class Snapshot:
     state: State = field(repr=False)
     readings: tuple = field(repr=False)
     settled: bool
-    linear: LinearResponse | None = field(repr=False)
+    linear: LinearRange | None = field(repr=False)
     lengths: tuple
 
 
@@ -133,7 +134,7 @@ class Mooring:
         self.static_result = result
         self._settled = True
         if self.fidelity == "linear":
-            self._linear = self._linearised(pose)
+            self._linear = LinearRange((self._linearised(pose),))
         observe(self._model, self._state, 0, self._readings)
 
     def step(self, t, pose, twist):
@@ -219,7 +220,7 @@ class Mooring:
     def _read_again(self):
         """Bring the readings up to date after something other than the motion has changed."""
         if self.fidelity == "linear" and self._settled:
-            self._linear = self._linearised(self._linear.pose)
+            self._linear = LinearRange((self._linearised(self.pose),))
             self._linear.show(self._state, self.pose, self.twist, 0, self._readings)
         elif self._settled:
             settings = self._state.settings
@@ -347,6 +348,16 @@ class Mooring:
         return self._statics.platform_stiffness(state, self._scratch)
 
     @property
+    def error_estimate(self):
+        """Estimated error of a linear mooring where it stands, against the equilibrium there; None for other fidelities.
+
+        A share: the largest of each fairlead tension's error over that tension (or a tenth of the mean one, if that is more), and of the error of
+        the wrench's force and moment over the sum of the fairlead tensions (times the farthest coupled point's distance).
+        """
+        self._need_settled()
+        return self._linear.error(self.pose) if self.fidelity == "linear" else None
+
+    @property
     def energy(self):
         """core.energy.Energy, J: kinetic, strain, bending, potential and their total, after a settle or a dynamic step."""
         self._need_settled()
@@ -472,13 +483,34 @@ class Mooring:
         return times.size
 
     def _linearised(self, pose):
-        return linearise(self._model, pose, lambda there: self._static_state(there, warm=True)[0], self.stiffness())
+        """A LinearResponse about `pose`; the state stands in equilibrium there after it."""
+        response, state = linearise(
+            self._model,
+            pose,
+            lambda there: self._static_state(there, warm=True)[0],
+            lambda there: self._statics.platform_stiffness(_copy(there), self._scratch),
+        )
+        state.clock[0] = self._state.clock[0]
+        _assign(self._state, state)
+        return response
+
+    def _solved_readings(self, pose):
+        """Readings of one row in equilibrium at `pose`; the state stays."""
+        state, _ = self._static_state(pose, warm=True)
+        readings = new_readings(self._model, 1)
+        observe(self._model, state, 0, readings)
+        return readings
 
     def _run_linear(self, times, poses, twists, readings):
         for sample, (pose, twist) in enumerate(zip(poses, twists)):
+            try:
+                self._linear = self._linear.follow(pose, self._solved_readings, self._linearised)
+            except MooringError as failure:
+                failure.samples = sample
+                raise
             self._linear.show(self._state, pose, twist, sample, readings)
-        self._state.clock[0], self._state.pose[:], self._state.twist[:] = times[-1], poses[-1], twists[-1]
-        self._report[:] = 0.0, times.size, 0.0, 0.0
+            self._report[:] = self._linear.solved, 1.0, 0.0, times[sample] - self.time
+            self._state.clock[0], self._state.pose[:], self._state.twist[:] = times[sample], pose, twist
         return times.size
 
     def _need_settled(self):

@@ -1,46 +1,107 @@
-"""The mooring as a linear spring about a settled pose: the 6 x 6 stiffness, and how everything else that is read changes with the pose."""
+"""The mooring as a linear spring about a pose: the 6 x 6 stiffness, how everything else that is read changes with the pose, and how far that holds.
 
-from dataclasses import dataclass
+The second differences of what is read give the error to second order, e = 1/2 d' H d at an offset d. It is measured, too: where the platform
+goes somewhere else, one static solution there says what the error is, and scales the estimate from then on.
+"""
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
 from .platform import rotation_between
 from .readings import Readings, new_readings, observe
 
-SHARE = 1e-4  # of the longest line: half of the change of place over which differences are taken
+SHARE = 3e-4  # of the longest line: half of the change of place over which differences are taken
+ELSEWHERE = 0.5  # of the distance from the middle: farther than that from where the error was measured, it is measured again
+FORGOTTEN = 0.7  # of what the estimate was too low by remains at the next measurement, if that finds less
+SLACK = 0.1  # of the mean tension of the fairleads: below, errors of a line's tension are seen against that
+
+
+class Measure(NamedTuple):
+    """What errors are counted in: fairlead tensions (lines,), the wrench's force and moment, and what one of each is seen against."""
+
+    scale: np.ndarray  # (lines + 2,) N, N m
+
+    @staticmethod
+    def values(readings):
+        """(lines + 6,) of one row: fairlead tensions and the wrench."""
+        return np.concatenate([readings.tension[0, :, 1], readings.wrench[0]])
+
+    def worst(self, errors):
+        """Largest share of its scale of errors (lines + 6,)."""
+        lines = self.scale.size - 2
+        sizes = np.append(np.abs(errors[:lines]), (_norm(errors[lines : lines + 3]), _norm(errors[lines + 3 :])))
+        return float((sizes / self.scale).max())
 
 
 @dataclass(frozen=True)
 class LinearResponse:
-    """Values at `pose` (7,) and their derivatives, axis first (6, ...), by place (m) and rotation vector about the world axes (rad)."""
+    """Values at `pose` (7,) and their derivatives, axis first (6, ...), by place (m) and rotation vector about the world axes (rad).
+
+    factor: measured over estimated error, where that is more than 1; checked: (7,) where it was measured last.
+    """
 
     pose: np.ndarray
     base: Readings
     slope: Readings
+    curvature: np.ndarray  # (6, 6, lines + 6) of Measure.values
+    measure: Measure
+    reach: float  # m: what a rotation moves
     position: np.ndarray  # (3, n) m
     position_slope: np.ndarray  # (6, 3, n)
     tension: np.ndarray  # (n,) N, of the segments
     tension_slope: np.ndarray  # (6, n)
+    factor: float = 1.0
+    checked: np.ndarray | None = None
 
     def offset(self, pose):
-        """(6,) m and rad from the settled pose."""
-        return np.concatenate([pose[:3] - self.pose[:3], rotation_between(self.pose[3:], pose[3:])])
+        """(6,) m and rad from where it was derived."""
+        return between(self.pose, pose)
 
-    def show(self, state, pose, twist, row, readings):
-        """Put the linear answer at `pose` (7,), `twist` (6,) into one row of `readings`, and places and tensions of the nodes into `state`."""
+    def far_from_checked(self, pose):
+        """Whether `pose` (7,) is somewhere else than where the error was measured, seen from the middle."""
+        if self.checked is None:
+            return True
+        return distance(between(self.checked, pose), self.reach) > ELSEWHERE * distance(self.offset(pose), self.reach)
+
+    def readings(self, pose):
+        """Readings of one row at `pose` (7,), to first order; length rates at rest, tensions below zero where a line would have gone slack."""
         offset = self.offset(pose)
-        for values, base, slope in zip(readings, self.base, self.slope):
-            values[row] = base[0] + np.tensordot(offset, slope, 1)
-        readings.tension[row] = np.maximum(readings.tension[row], 0.0)
-        readings.length_rate[row] = np.tensordot(twist, self.slope.length, 1)
+        return Readings(*(base + np.tensordot(offset, slope, 1)[None] for base, slope in zip(self.base, self.slope)))
+
+    def error(self, pose):
+        """Estimated error at `pose` (7,), as a share (see Measure)."""
+        return self.factor * self._second_order(pose)
+
+    def _second_order(self, pose):
+        offset = self.offset(pose)
+        return self.measure.worst(0.5 * np.tensordot(np.outer(offset, offset), self.curvature, 2))
+
+    def confronted(self, pose, readings):
+        """This response with its estimate scaled by the error at `pose` (7,) against the true `readings` there, and that error."""
+        own = self.readings(pose)
+        own.tension[:] = np.maximum(own.tension, 0.0)
+        measured = self.measure.worst(Measure.values(readings) - Measure.values(own))
+        estimated = self._second_order(pose)
+        factor = max(FORGOTTEN * self.factor, measured / estimated if estimated > 0.0 else 1.0, 1.0)
+        return replace(self, factor=factor, checked=pose.copy()), measured
+
+    def shape(self, pose, state):
+        """Put places and tensions of the nodes at `pose` (7,) into `state`."""
+        offset = self.offset(pose)
         state.position[:] = self.position + np.tensordot(offset, self.position_slope, 1)
         state.tension[:] = np.maximum(self.tension + np.tensordot(offset, self.tension_slope, 1), 0.0)
 
 
 def linearise(model, pose, static_state, stiffness):
-    """LinearResponse about `pose` (7,): `static_state(pose)` gives the State in equilibrium, `stiffness` (6, 6) is that of the wrench."""
+    """LinearResponse about `pose` (7,) and the State in equilibrium there.
+
+    static_state(pose) gives the State in equilibrium, stiffness(state) that of the wrench (6, 6). Takes 28 static solutions.
+    """
     small = SHARE * (model.segments * model.length[model.first_node + 1]).max()
-    steps = [small] * 3 + [small / max(model.reach, small)] * 3
+    reach = max(model.reach, small)
+    steps = np.array([small] * 3 + [small / reach] * 3)
 
     def read(state):
         readings = new_readings(model, 1)
@@ -48,25 +109,57 @@ def linearise(model, pose, static_state, stiffness):
         return readings
 
     here = static_state(pose)
-    slopes = []
+    base = read(here)
+    middle = Measure.values(base)
+    own = stiffness(here)
+    lines = model.first_node.size
+    slopes, ahead_of, curvature = [], [], np.zeros((6, 6, lines + 6))
     for axis, step in enumerate(steps):
-        ahead, behind = (static_state(_moved(pose, axis, sign * step)) for sign in (1.0, -1.0))
-        pairs = zip((*read(ahead), ahead.position[None], ahead.tension[None]), (*read(behind), behind.position[None], behind.tension[None]))
-        slopes.append([(a[0] - b[0]) / (2.0 * step) for a, b in pairs])
+        ahead, behind = (static_state(moved(pose, axis, sign * step)) for sign in (1.0, -1.0))
+        a, b = read(ahead), read(behind)
+        pairs = zip((*a, ahead.position[None], ahead.tension[None]), (*b, behind.position[None], behind.tension[None]))
+        slopes.append([(x[0] - y[0]) / (2.0 * step) for x, y in pairs])
+        ahead_of.append(Measure.values(a))
+        curvature[axis, axis] = (Measure.values(a) + Measure.values(b) - 2.0 * middle) / step**2
+    for i in range(6):
+        for j in range(i):
+            both = Measure.values(read(static_state(moved(moved(pose, j, steps[j]), i, steps[i]))))
+            curvature[i, j] = curvature[j, i] = (both - ahead_of[i] - ahead_of[j] + middle) / (steps[i] * steps[j])
     *readings, position_slope, tension_slope = (np.array(column) for column in zip(*slopes))
-    slope = Readings(*readings)._replace(wrench=-stiffness.T.copy())
-    return LinearResponse(pose.copy(), read(here), slope, here.position.copy(), position_slope, here.tension.copy(), tension_slope)
+    slope = Readings(*readings)._replace(wrench=-own.T.copy())
+    total = base.tension[0, :, 1].sum()
+    tension = np.maximum(base.tension[0, :, 1], SLACK * total / lines)
+    scale = np.maximum(np.append(tension, (total, total * reach)), 1e-300)
+    response = LinearResponse(
+        pose.copy(), base, slope, curvature, Measure(scale), reach, here.position.copy(), position_slope, here.tension.copy(), tension_slope
+    )
+    return response, here
 
 
-def _moved(pose, axis, by):
-    moved = pose.copy()
+def moved(pose, axis, by):
+    """`pose` (7,) moved along an axis (0 to 2, m) or turned about a world axis (3 to 5, rad)."""
+    away = pose.copy()
     if axis < 3:
-        moved[axis] += by
-        return moved
+        away[axis] += by
+        return away
     w = pose[6]
     turn = np.zeros(3)
     turn[axis - 3] = np.sin(0.5 * by)
     c = np.cos(0.5 * by)
     vector = c * pose[3:6] + w * turn + np.cross(turn, pose[3:6])
-    moved[3:] = (*vector, c * w - turn @ pose[3:6])
-    return moved
+    away[3:] = (*vector, c * w - turn @ pose[3:6])
+    return away
+
+
+def between(pose, other):
+    """(6,) m and rad from one pose (7,) to another."""
+    return np.concatenate([other[:3] - pose[:3], rotation_between(pose[3:], other[3:])])
+
+
+def distance(offset, reach):
+    """Of an offset (6,) in m and rad, m."""
+    return float(np.hypot(_norm(offset[:3]), reach * _norm(offset[3:])))
+
+
+def _norm(vector):
+    return float(np.sqrt(vector @ vector))
