@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .cabledyn_peer import EXECUTABLE, ROOT, PeerError, chains, deck, prescribed
+from .cabledyn_peer import EXECUTABLE, ROOT, PeerError, chains, deck, depths, prescribed
 
 
 @dataclass(frozen=True)
@@ -39,13 +39,21 @@ def run(scene, motion, step, segments=1.0, options=()):
     cpu = []
     with tempfile.TemporaryDirectory(prefix="cabledyn_") as folder:
         folder = Path(folder)
+        if scene.environment.bathymetry is not None:
+            (folder / "depths.txt").write_text(depths(scene.environment.bathymetry), encoding="utf-8")
         for count in (0, steps):
             (folder / "motion.txt").write_text(prescribed(step * np.arange(count + 1), places, motion), encoding="utf-8")
-            text = deck(scene, lines, step, count * step, segments, outputs="-", options=options)
+            text = deck(scene, lines, step, count * step, segments, friction=friction(scene), outputs="-", options=options)
             (folder / "deck.dat").write_text(text, encoding="utf-8")
             cpu.append(_execute(folder))
         main = np.loadtxt(folder / f"{ROOT}.out", skiprows=2, ndmin=2)
     return CostRun(main[:, 0], np.abs(main[:, 1:]), cpu[1] - cpu[0], steps * step)
+
+
+def friction(scene):
+    """(axial, transverse) coefficients of the bed, which sticks in CableDyn; None where there is none."""
+    law = scene.environment.friction
+    return law and (law.kinetic_axial, law.kinetic_transverse)
 
 
 def _execute(folder):

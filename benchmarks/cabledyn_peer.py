@@ -165,7 +165,7 @@ def run(scene, chain, motion, step, duration, segments=1, curvature=True, fricti
         texts["deck.dat"] = deck(scene, [chain], step, steps * step, segments, wanted, friction)
         texts["motion.txt"] = prescribed(times, {1: chain.top}, motion)
         if scene.environment.bathymetry is not None:
-            texts["depths.txt"] = _depths(scene.environment.bathymetry)
+            texts["depths.txt"] = depths(scene.environment.bathymetry)
         for name, text in texts.items():
             (folder / name).write_text(text, encoding="utf-8")
         began = time.perf_counter()
@@ -192,7 +192,8 @@ def prescribed(times, places, motion):
     return "\n".join(rows) + "\n"
 
 
-def _depths(grid):
+def depths(grid):
+    """Text of the file of depths of a grid."""
     rows = [f"{x!r} {y!r} {grid.depth[i][j]!r}" for i, x in enumerate(grid.x) for j, y in enumerate(grid.y)]
     return "\n".join([*rows, ""])
 

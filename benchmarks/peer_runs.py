@@ -10,6 +10,7 @@ from mooring_ros.mooring import Mooring
 
 from . import moordyn_peer, peer_cache
 from .errors import dynamic_difference
+from .moordyn_deck import DeckError, files
 from .moordyn_history import transit_time
 from .ours import at_rest, samples
 from .peer_cases import fairleads
@@ -61,7 +62,11 @@ def of_moordyn(case, scheme, dt, refinement=1, fresh=False, steps_per_call=1):
             return {"failure": np.array(str(error))}
         return {"times": run.times, "probed": run.probed, "cpu": run.cpu, "simulated": run.simulated}
 
-    key = peer_cache.text_of(moordyn_peer.deck(scene, dt, scheme), motion, ends, interval(motion), "forces")
+    try:
+        deck = moordyn_peer.deck(scene, dt, scheme)
+    except DeckError as error:
+        return failed(error)
+    key = peer_cache.text_of(deck, motion, ends, interval(motion), "forces", *files(scene).values())
     found = make() if fresh or steps_per_call > 1 else peer_cache.kept("moordyn", key, make)
     if "failure" in found:
         return failed(found["failure"])
@@ -83,7 +88,7 @@ def of_cabledyn(case, dt, refinement=1, options=(), fresh=False):
         return {"times": run.times[1:], "force": run.force[1:], "cost": run.cost}
 
     try:
-        key = peer_cache.text_of(cabledyn_peer.deck(scene, cabledyn_peer.chains(scene), dt, motion.end, options=options), motion, "forces")
+        key = peer_cache.text_of(cabledyn_peer.deck(scene, cabledyn_peer.chains(scene), dt, motion.end, friction=cabledyn_cost.friction(scene), options=options), motion, "forces", *files(scene).values())
     except cabledyn_peer.PeerError as error:
         return failed(error)
     found = make() if fresh else peer_cache.kept("cabledyn", key, make)
