@@ -7,6 +7,7 @@ import numpy as np
 
 from mooring_ros.errors import MooringError
 from mooring_ros.mooring import Mooring
+from mooring_ros.scene.description import FREE
 
 from . import moordyn_peer, peer_cache
 from .errors import dynamic_difference
@@ -42,6 +43,14 @@ def interval(motion):
     return min(SAMPLE, getattr(motion, "period", 10.0) / 100.0)
 
 
+def initial(scene):
+    """Options with which MoorDyn finds its initial state: its own is none where lines meet in free points or rods."""
+    if not scene.rods and all(p.kind != FREE for p in scene.points):
+        return ()
+    short = any(n.type.bending_stiffness > 0.0 for n in scene.lines)  # cables: soon at rest, and slow to compute
+    return ("1 ICgenDynamic", "30.0 TmaxIC") if short else ("1 ICgenDynamic",)
+
+
 def of_moordyn(case, scheme, dt, refinement=1, fresh=False, steps_per_call=1):
     """MoorDyn with its internal step dt (s), called at every step, or at every so many, with the chord of the motion."""
     import moordyn
@@ -54,8 +63,9 @@ def of_moordyn(case, scheme, dt, refinement=1, fresh=False, steps_per_call=1):
             float(np.linalg.norm(moordyn.GetLineNodeTen(lines[k], moordyn.GetLineN(lines[k]) if b else 0))) for k, b in ends
         ]
 
+    options = initial(scene)
+
     def make():
-        options = ("1 ICgenDynamic",) if scene.rods or any(p.kind == "free" for p in scene.points) else ()
         try:
             run = moordyn_peer.run(scene, motion, dt, scheme, steps_per_call=steps_per_call, sample=interval(motion), options=options, probe=forces)
         except moordyn_peer.PeerError as error:
@@ -66,7 +76,7 @@ def of_moordyn(case, scheme, dt, refinement=1, fresh=False, steps_per_call=1):
         deck = moordyn_peer.deck(scene, dt, scheme)
     except DeckError as error:
         return failed(error)
-    key = peer_cache.text_of(deck, motion, ends, interval(motion), "forces", *files(scene).values())
+    key = peer_cache.text_of(deck, motion, ends, interval(motion), "forces", *files(scene).values(), *options[1:])
     found = make() if fresh or steps_per_call > 1 else peer_cache.kept("moordyn", key, make)
     if "failure" in found:
         return failed(found["failure"])

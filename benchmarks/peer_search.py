@@ -11,10 +11,10 @@ SCHEMES = {
 FEW = ("Euler", "RK2", "Midpoint4", "Midpoint6")
 CLOSE = 1.07  # the search ends when a step that will not do is this much larger than one that does
 SMALLEST = 0.02  # transit times
-MOORDYN_MESHES = (0.5, 0.7, 1.0, 1.4, 2.0)
-NEAR_LARGEST = {"Euler": (0.3, 0.6), "RK2": (0.3, 0.6, 0.95), "Midpoint4": (1.6, 2.4), "Midpoint6": (3.4,)}  # steps in transit times
-MESHES = (0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8)  # CableDyn's elements for each segment of the case
-STEPS_IN_A_PERIOD = (25, 35, 50, 70, 100, 140, 200, 280, 400)
+MOORDYN_MESHES = (0.5, 1.0, 2.0)
+NEAR_LARGEST = {"Euler": (0.6,), "RK2": (0.6, 0.95), "Midpoint4": (1.6, 2.4)}  # steps in transit times
+MESHES = (0.35, 0.5, 0.7, 1.0, 1.4, 2.0)  # CableDyn's elements for each segment of the case
+STEPS_IN_A_PERIOD = (25, 50, 70, 100, 200, 400)
 PERIOD = 10.0  # s, of motions without one
 
 
