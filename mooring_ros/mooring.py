@@ -1,5 +1,6 @@
 """The façade: one mooring, for the live node, the replay and Python alike."""
 
+import copy
 import hashlib
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -241,6 +242,15 @@ class Mooring:
         for mine, theirs in zip(self._readings, saved.readings):
             mine[:] = theirs
         self._settled, self._linear = saved.settled, saved.linear
+
+    def twin(self):
+        """Another mooring like this one, in the same state. What does not change they share."""
+        other = copy.copy(self)
+        other._state, other._scratch = _copy(self._state), new_scratch(self._model)
+        other._readings = type(self._readings)(*(array.copy() for array in self._readings))
+        other._statics = StaticSolver(self._wound, self._model)
+        other._report, other._time, other._pose, other._twist = (array.copy() for array in (self._report, self._time, self._pose, self._twist))
+        return other
 
     # -- reading ----------------------------------------------------------------------------------------------------------------------
 

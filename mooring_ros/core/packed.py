@@ -60,6 +60,7 @@ def entry(dispatcher):
             return result
         return compiled[0](*args)
 
+    call.dispatcher = dispatcher
     return wraps(dispatcher.py_func)(call)
 
 

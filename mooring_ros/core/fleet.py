@@ -1,0 +1,120 @@
+"""Many moorings advanced in one call, without the interpreter between them.
+
+Every mooring has its own state; those of equal scenes share their model, and all that one thread advances share its work space. The stepping
+kernel is called through its address: what it does, and its bits, are those of a single mooring's.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from llvmlite import ir
+from numba.core import types
+from numba.core.extending import intrinsic
+
+from .cache import kernel, stage
+from .explicit import DONE, run
+from .model import Model, Scratch, State
+from .packed import Fields, entry, packed
+from .readings import Readings
+
+
+@packed
+class Member(NamedTuple):
+    """One mooring of a fleet: what `explicit.run` needs of it, but for work space."""
+
+    model: Model
+    state: State
+    table: np.ndarray  # (schemes, 3), schemes.step_table
+    report: np.ndarray  # (4,)
+    readings: Readings  # of one row
+
+
+def _at(cls):
+    """Intrinsic: the packed tuple of the class `cls` at an address."""
+
+    @intrinsic
+    def there(context, address):
+        return Fields(cls)(types.int64), lambda codegen, builder, signature, args: args[0]
+
+    return there
+
+
+_member_at, _scratch_at = _at(Member), _at(Scratch)
+_RUN_TYPES = (
+    Fields(Model), Fields(State), Fields(Scratch), *(types.Array(types.float64, ndim, "C") for ndim in (2, 1, 2, 2, 1)), Fields(Readings)
+)  # fmt: skip
+_RUN_RESULT = types.UniTuple(types.int64, 2)
+
+
+@intrinsic
+def _run_at(context, address, model, state, scratch, table, times, poses, twists, report, readings):
+    """`explicit.run` called at its address: compiled once, whoever calls it."""
+
+    def call(codegen, builder, signature, args):
+        convention = codegen.call_conv
+        function = builder.inttoptr(args[0], ir.PointerType(convention.get_function_type(_RUN_RESULT, _RUN_TYPES)))
+        _, result = convention.call_function(builder, function, _RUN_RESULT, _RUN_TYPES, args[1:])
+        return result
+
+    return _RUN_RESULT(types.int64, *_RUN_TYPES), call
+
+
+def run_address(member, scratch):
+    """Where the stepping kernel is in this process, compiled for what a Member and its Scratch look like."""
+    for known in (member, scratch):
+        known.address  # noqa: B018  (its layout must be known before anything is compiled)
+    compiled = run.dispatcher
+    compiled.compile(_RUN_TYPES)
+    made = compiled.overloads[_RUN_TYPES]
+    if made.fndesc.restype != _RUN_RESULT:
+        raise TypeError(f"explicit.run returns {made.fndesc.restype}; expected {_RUN_RESULT}")
+    return made.library.get_pointer_to_function(made.fndesc.llvm_func_name)
+
+
+@entry
+@kernel
+def read_clocks(members, clocks):
+    """Times (s) at which members (addresses) stand, into clocks (members,)."""
+    for m in range(members.size):
+        clocks[m] = _member_at(members[m]).state.clock[0]
+
+
+@stage
+def _show_member(shown, m, row, first_line, wrench, tension):
+    for k in range(6):
+        wrench[row, m, k] = shown.wrench[0, k]
+    for line in range(first_line[m], first_line[m + 1]):
+        for side in range(2):
+            tension[row, line, side] = shown.tension[0, line - first_line[m], side]
+
+
+@entry
+@kernel
+def collect(members, first_line, wrench, tension):
+    """What members (addresses) show, into one row: wrench (1, members, 6) N, N m; tension (1, all lines, 2) N, of anchors and fairleads."""
+    for m in range(members.size):
+        _show_member(_member_at(members[m]).readings, m, 0, first_line, wrench, tension)
+
+
+@entry
+@kernel
+def advance_many(address, members, kinds, scratches, first, last, times, poses, twists, first_line, status, wrench, tension):
+    """Advance members first to last - 1 through samples: times (k, 1), poses (members, k, 1, 7), twists (members, k, 1, 6).
+
+    members (members,): addresses of Members; kinds (members,): which of `scratches`, addresses of Scratches, serves each. status (members, 2):
+    members whose first one is not DONE are left alone; it gets a status code, and when that is another one the samples done before. wrench (k, members, 6) N, N m and
+    tension (k, all lines, 2) N, of anchors and fairleads, get a row for each sample done; lines of member m begin at first_line[m].
+    """
+    for m in range(first, last):
+        if status[m, 0] != DONE:
+            continue
+        member, scratch = _member_at(members[m]), _scratch_at(scratches[kinds[m]])
+        shown = member.readings
+        for j in range(times.shape[0]):
+            code, _ = _run_at(
+                address, member.model, member.state, scratch, member.table, times[j], poses[m, j], twists[m, j], member.report, shown
+            )
+            if code != DONE:
+                status[m, 0], status[m, 1] = code, j  # samples done
+                break
+            _show_member(shown, m, j, first_line, wrench, tension)
