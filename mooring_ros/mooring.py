@@ -24,6 +24,7 @@ from .core.readings import new_readings, observe
 from .core.schemes import LEAPFROG, step_table
 from .core.stability import step_limit
 from .core.platform import rotate
+from .core.poses import between, moved
 from .core.statics import StaticSolver
 from .core.waves import waken
 from .errors import MooringError
@@ -38,6 +39,8 @@ NOT_AS_LAID = "statics with friction from the lines as laid did not converge: th
 SWINGS, PIECES = 40, 40  # how often lines may swing where the statics do not converge at once, and in how many pieces
 SWING_TIME, LONGER = 20.0, 1.2  # s, and by how much each swing is longer than the last one
 MOST_EFFORT = 5e8  # evaluations times nodes of all swings: some ten seconds
+PARTS = (1, 4, 16)  # of a platform's move from sample to sample, in which the statics follow it
+STEP_EFFORT = 2e7  # evaluations times nodes of the swings in one step
 AT_REST = 1e-5  # of the longest line: moves of a whole swing
 
 
@@ -382,22 +385,41 @@ class Mooring:
 
     # -- inside -----------------------------------------------------------------------------------------------------------------------
 
-    def _static_state(self, pose, warm=False):
-        """A State in equilibrium at `pose`, and its StaticResult; where Newton finds no way, lines swing and drag in the water first.
+    def _next_static_state(self, pose):
+        """A State in equilibrium at `pose` and its StaticResult, from the present shape; where that finds no way, in parts of the move, then from cold.
 
-        `warm`: from the present shape; otherwise, or when that fails, from the catenaries.
+        The effort is bounded: by the iterations of StaticSolver.solve, once from the present shape, once from cold, 20 times its quick way, and
+        a share of a second of swinging.
         """
+        state, remembers, tries = _copy(self._state), self._state.grip.size > 0, 0
+        way = between(state.pose, pose)
+        for parts in PARTS:
+            state = _copy(self._state)
+            for share in np.arange(1, parts + 1) / parts:
+                self._statics.place(state, moved(self._state.pose, share * way) if share < 1.0 else pose, first_guess=False)
+                result = self._statics.solve(state, self._scratch, quick=parts > 1)
+                tries += result.iterations
+                if result.residual > self._statics.acceptable:
+                    break
+                if remembers:
+                    self._statics.hold_on(state)
+            else:
+                return state, replace(result, iterations=tries, converged=True)
+        swing = SWING_TIME / self.step_limit.dt * self._model.size
+        state, result = self._static_state(pose, swings=min(int(STEP_EFFORT / swing), SWINGS))
+        return state, replace(result, iterations=tries + result.iterations)
+
+    def _static_state(self, pose, swings=SWINGS):
+        """A State in equilibrium at `pose`, and its StaticResult, from the catenaries; where Newton finds no way, lines swing and drag in the water first."""
         state = _copy(self._state)
-        self._statics.place(state, pose, first_guess=not warm)
+        self._statics.place(state, pose)
         remembers = state.grip.size > 0
-        if remembers and not warm:
+        if remembers:
             state.grip[3] = NO_CONTACT
         result = self._statics.solve(state, self._scratch)
-        if warm and not result.converged:
-            return self._static_state(pose)
         best, best_state = result, _copy(state)
         effort = 0
-        for swing in range(SWINGS):
+        for swing in range(swings):
             if best.residual <= self._statics.acceptable or effort > MOST_EFFORT:
                 break
             took, at_rest = self._swing(state, SWING_TIME * LONGER**swing)
@@ -409,7 +431,7 @@ class Mooring:
                 break
         if not best.converged and best.residual <= self._statics.acceptable:
             best = replace(best, tolerance=self._statics.acceptable, converged=True)
-        if best.converged and remembers and not warm:
+        if best.converged and remembers:
             state = _copy(best_state)
             laid = self._statics.pull_tight(state, self._scratch)
             iterations = laid.iterations + best.iterations
@@ -427,6 +449,16 @@ class Mooring:
             f"the statics did not converge in {best.iterations} iterations: "
             f"{best.residual:.3g} N out of balance, {best.tolerance:.3g} N asked for"
         )
+
+    def _equilibrium(self, pose, time):
+        """State and StaticResult at the pose of a step to `time` (s)."""
+        try:
+            return self._next_static_state(pose)
+        except MooringError as error:
+            raise MooringError(
+                f"no equilibrium for the step to t = {time:.6g} s: {error}; settle() at a pose that the platform is to be put to, or take "
+                f'fidelity "dynamic"; the mooring stands at t = {self.time:.6g} s'
+            ) from error
 
     def _swing(self, state, duration):
         """Let everything move for `duration` (s) without friction, the platform held, and stop it whenever it has gathered most of its speed.
@@ -453,8 +485,8 @@ class Mooring:
         _halt(state)
         if state.grip.size:
             state.grip[3] = NO_CONTACT
-        moved = np.abs(state.position - start).max()
-        return effort, status != explicit.DONE or moved < AT_REST * max(self._statics.lengths)
+        farthest = np.abs(state.position - start).max()
+        return effort, status != explicit.DONE or farthest < AT_REST * max(self._statics.lengths)
 
     def _run(self, times, poses, twists, readings):
         if self.fidelity == "quasi_static":
@@ -481,7 +513,7 @@ class Mooring:
     def _run_statics(self, times, poses, twists, readings):
         for sample, pose in enumerate(poses):
             try:
-                state, result = self._static_state(pose, warm=True)
+                state, result = self._equilibrium(pose, times[sample])
             except MooringError as failure:
                 failure.samples = sample
                 raise
@@ -497,7 +529,7 @@ class Mooring:
         response, state = linearise(
             self._model,
             pose,
-            lambda there: self._static_state(there, warm=True)[0],
+            lambda there: self._next_static_state(there)[0],
             lambda there: self._statics.platform_stiffness(_copy(there), self._scratch),
         )
         state.clock[0] = self._state.clock[0]
@@ -506,7 +538,7 @@ class Mooring:
 
     def _solved_readings(self, pose):
         """Readings of one row in equilibrium at `pose`; the state stays."""
-        state, _ = self._static_state(pose, warm=True)
+        state, _ = self._next_static_state(pose)
         readings = new_readings(self._model, 1)
         observe(self._model, state, 0, readings)
         return readings
@@ -516,8 +548,9 @@ class Mooring:
             try:
                 self._linear = self._linear.follow(pose, self._solved_readings, self._linearised)
             except MooringError as failure:
-                failure.samples = sample
-                raise
+                error = MooringError(f"the linear mooring leaves its range in the step to t = {times[sample]:.6g} s, and no other can be derived: {failure}")
+                error.samples = sample
+                raise error from failure
             self._linear.show(self._state, pose, twist, sample, readings)
             self._report[:] = self._linear.solved, 1.0, 0.0, times[sample] - self.time
             self._state.clock[0], self._state.pose[:], self._state.twist[:] = times[sample], pose, twist

@@ -1,10 +1,13 @@
 """The cheaper fidelities against what they approximate."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scenes_in_code import HERE, SCENES, STILL, same_bits, surge_heave, turn
 
-from mooring_ros import Mooring
+from mooring_ros import Mooring, MooringError
+from mooring_ros.core.statics import StaticResult
 
 
 def settled(fidelity, file="oc4.txt", pose=HERE):
@@ -83,3 +86,40 @@ def test_what_a_fidelity_leaves_out_of_a_scene_is_said():
     file = SCENES / "rm3_cable.txt"
     assert not any("waves" in warning for warning in Mooring(file).warnings)
     assert any("know no waves" in warning for warning in Mooring(file, fidelity="quasi_static").warnings)
+
+
+@pytest.mark.parametrize("file", ["oc4.txt", "volturnus_s_semi_taut_friction.txt", "iswec_c2a.txt", "chalmers_33m.txt"])
+def test_quasi_static_finds_the_equilibrium_of_large_moves_between_samples(file):
+    """Random places, up to a third of the depth and a radian away: that of a cold start."""
+    rng, moved, cold = np.random.default_rng(7), settled("quasi_static", file), settled("quasi_static", file)
+    depth = moved.scene.environment.depth
+    for k in range(1, 9):
+        pose = np.concatenate([depth / 3.0 * rng.uniform(-1, 1, 3) * [1, 1, 0.1], turn(rng.normal(size=3), rng.uniform(-1, 1))])
+        moved.step(float(k), pose, STILL)
+        cold.settle(pose)
+        np.testing.assert_allclose(moved.fairlead_tension, cold.fairlead_tension, rtol=1e-4, atol=1e-4 * cold.fairlead_tension.max())
+
+
+def test_quasi_static_follows_in_parts_of_the_move_where_newton_does_not_find_the_way_at_once(monkeypatch):
+    mooring, target = settled("quasi_static"), HERE + np.array([12.0, 3.0, 0, 0, 0, 0, 0])
+    solve, tried = mooring._statics.solve, []
+
+    def not_at_once(state, scratch, quick=False):
+        tried.append(float(state.pose[0]))
+        result = solve(state, scratch, quick=quick)
+        return replace(result, residual=np.inf, converged=False) if len(tried) == 1 else result
+
+    monkeypatch.setattr(mooring._statics, "solve", not_at_once)
+    mooring.step(1.0, target, STILL)
+    assert tried == pytest.approx([12.0, 3.0, 6.0, 9.0, 12.0])
+    cold = settled("quasi_static", pose=target)
+    np.testing.assert_allclose(mooring.fairlead_tension, cold.fairlead_tension, rtol=1e-9)
+
+
+def test_a_quasi_static_step_without_an_equilibrium_is_refused_in_words_and_undone(monkeypatch):
+    mooring = settled("quasi_static")
+    saved = mooring.snapshot()
+    monkeypatch.setattr(mooring._statics, "solve", lambda *_, **__: StaticResult(3, 1e9, 1.0, False))
+    with pytest.raises(MooringError, match=r"no equilibrium for the step to t = 2 s: .*settle\(\)"):
+        mooring.step(2.0, HERE, STILL)
+    assert same_bits(saved, mooring.snapshot())

@@ -98,7 +98,7 @@ def test_where_no_equilibrium_can_be_found_the_step_is_refused_and_undone(monkey
     def nothing(*_, **__):
         raise MooringError("the statics did not converge")
 
-    monkeypatch.setattr(linear, "_static_state", nothing)
+    monkeypatch.setattr(linear, "_next_static_state", nothing)
     with pytest.raises(MooringError, match="did not converge"):
         linear.step(2.0, HERE + np.array([40.0, 0, 0, 0, 0, 0, 0]), STILL)
     assert same_bits(saved, linear.snapshot()) and linear._linear is saved.linear

@@ -9,9 +9,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .platform import rotation_between
+from .poses import between, distance, moved, norm
 from .readings import Readings, new_readings, observe
 
+AXES = np.eye(6)
 SHARE = 3e-4  # of the longest line: half of the change of place over which differences are taken
 ELSEWHERE = 0.5  # of the distance from the middle: farther than that from where the error was measured, it is measured again
 FORGOTTEN = 0.7  # of what the estimate was too low by remains at the next measurement, if that finds less
@@ -31,7 +32,7 @@ class Measure(NamedTuple):
     def worst(self, errors):
         """Largest share of its scale of errors (lines + 6,)."""
         lines = self.scale.size - 2
-        sizes = np.append(np.abs(errors[:lines]), (_norm(errors[lines : lines + 3]), _norm(errors[lines + 3 :])))
+        sizes = np.append(np.abs(errors[:lines]), (norm(errors[lines : lines + 3]), norm(errors[lines + 3 :])))
         return float((sizes / self.scale).max())
 
 
@@ -115,7 +116,7 @@ def linearise(model, pose, static_state, stiffness):
     lines = model.first_node.size
     slopes, ahead_of, curvature = [], [], np.zeros((6, 6, lines + 6))
     for axis, step in enumerate(steps):
-        ahead, behind = (static_state(moved(pose, axis, sign * step)) for sign in (1.0, -1.0))
+        ahead, behind = (static_state(moved(pose, sign * step * AXES[axis])) for sign in (1.0, -1.0))
         a, b = read(ahead), read(behind)
         pairs = zip((*a, ahead.position[None], ahead.tension[None]), (*b, behind.position[None], behind.tension[None]))
         slopes.append([(x[0] - y[0]) / (2.0 * step) for x, y in pairs])
@@ -123,7 +124,7 @@ def linearise(model, pose, static_state, stiffness):
         curvature[axis, axis] = (Measure.values(a) + Measure.values(b) - 2.0 * middle) / step**2
     for i in range(6):
         for j in range(i):
-            both = Measure.values(read(static_state(moved(moved(pose, j, steps[j]), i, steps[i]))))
+            both = Measure.values(read(static_state(moved(pose, steps[i] * AXES[i] + steps[j] * AXES[j]))))
             curvature[i, j] = curvature[j, i] = (both - ahead_of[i] - ahead_of[j] + middle) / (steps[i] * steps[j])
     *readings, position_slope, tension_slope = (np.array(column) for column in zip(*slopes))
     slope = Readings(*readings)._replace(wrench=-own.T.copy())
@@ -134,32 +135,3 @@ def linearise(model, pose, static_state, stiffness):
         pose.copy(), base, slope, curvature, Measure(scale), reach, here.position.copy(), position_slope, here.tension.copy(), tension_slope
     )
     return response, here
-
-
-def moved(pose, axis, by):
-    """`pose` (7,) moved along an axis (0 to 2, m) or turned about a world axis (3 to 5, rad)."""
-    away = pose.copy()
-    if axis < 3:
-        away[axis] += by
-        return away
-    w = pose[6]
-    turn = np.zeros(3)
-    turn[axis - 3] = np.sin(0.5 * by)
-    c = np.cos(0.5 * by)
-    vector = c * pose[3:6] + w * turn + np.cross(turn, pose[3:6])
-    away[3:] = (*vector, c * w - turn @ pose[3:6])
-    return away
-
-
-def between(pose, other):
-    """(6,) m and rad from one pose (7,) to another."""
-    return np.concatenate([other[:3] - pose[:3], rotation_between(pose[3:], other[3:])])
-
-
-def distance(offset, reach):
-    """Of an offset (6,) in m and rad, m."""
-    return float(np.hypot(_norm(offset[:3]), reach * _norm(offset[3:])))
-
-
-def _norm(vector):
-    return float(np.sqrt(vector @ vector))

@@ -9,7 +9,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .linear import LinearResponse, Measure, between, distance
+from .linear import LinearResponse, Measure
+from .poses import between, distance
 from .readings import Readings
 
 RANGE = 0.01  # estimated error, of fairlead tensions and wrench (linear.Measure), at which another response is looked for
