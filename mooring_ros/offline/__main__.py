@@ -10,7 +10,7 @@ import signal
 import sys
 import threading
 
-from . import check, recover, replay, static, validate
+from . import check, recover, replay, static, trade, validate
 from .console import ComputationFailed, UsageError, complain
 
 COMMANDS = {
@@ -18,6 +18,7 @@ COMMANDS = {
     "static": (static, "the static solution: tensions, forces, platform stiffness"),
     "replay": (replay, "recorded motion in, forces out, as fast as it goes"),
     "validate": (validate, "two tension histories side by side"),
+    "trade": (trade, "the speed-accuracy trade of a scene on this machine, and the setting to use"),
     "recover": (recover, "make a recording that was cut off readable again"),
 }
 
