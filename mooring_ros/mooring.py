@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from .arguments import checked_poses, checked_twists, numbers, shaped
-from .core import explicit
+from .core import explicit, implicit
 from .core.bending_readings import curvature as curvature_of_nodes
 from .core.energy import energy
 from .core.failures import build_failures
@@ -32,7 +32,7 @@ from .history import History
 from .scene import COUPLED, Scene, load_scene
 
 FIDELITIES = ("dynamic", "quasi_static", "linear")
-SOLVERS = ("auto", "explicit")
+SOLVERS = ("auto", "explicit", "implicit")
 MOST_SEGMENTS = 100_000  # of a line
 MOST_STRAIN = 1.0  # of a line in motion, or twice that of the settled one
 NOT_AS_LAID = "statics with friction from the lines as laid did not converge: they hold on to the bed where they lie without friction"
@@ -61,8 +61,9 @@ class Mooring:
 
     scene: path of a MoorDyn v2 file, or a `Scene`. fidelity: "dynamic", or "quasi_static": equilibrium at every sample, without inertia, damping
     and drag of the motion, or "linear": the 6 x 6 stiffness, and tensions to first order, about the last settled pose (dt has no meaning in
-    these two). solver: "auto" or "explicit". dt: largest step of the solver (s),
-    None for the largest that is stable; a dt beyond that is not taken. segments: segments of every line, None for the file's; refine: the file's
+    these two). solver: "auto", "explicit" or "implicit" (docs/solvers.md). dt: largest step of the solver (s),
+    None for the largest that is stable, or of the implicit solver one that follows the motion; of the explicit one a dt beyond is not taken.
+    spectral_radius: of the implicit solver, 0..1: the share of waves too quick for the step that a step leaves. segments: segments of every line, None for the file's; refine: the file's
     segments of each line times this, rounded, where lines of unlike lengths share a mesh.
 
     pose is (7,): x, y, z (m) and a unit quaternion x, y, z, w; twist is (6,): velocity (m/s) of the reference point and angular velocity
@@ -70,7 +71,7 @@ class Mooring:
     Raises SceneError for a bad scene, ValueError for bad arguments; MooringError when a computation cannot be completed.
     """
 
-    def __init__(self, scene, fidelity="dynamic", solver="auto", dt=None, segments=None, refine=1.0):
+    def __init__(self, scene, fidelity="dynamic", solver="auto", dt=None, segments=None, refine=1.0, spectral_radius=implicit.SPECTRAL_RADIUS):
         if fidelity not in FIDELITIES:
             raise ValueError(f"fidelity {fidelity!r} is not built; expected one of {', '.join(FIDELITIES)}")
         if solver not in SOLVERS:
@@ -85,13 +86,18 @@ class Mooring:
             raise ValueError(f"segments is {segments!r} and refine is {refine!r}; expected one of the two")
         self.scene = scene if isinstance(scene, Scene) else load_scene(Path(scene))
         self.fidelity = fidelity
-        self.solver = "explicit"
+        self.solver = "implicit" if solver == "implicit" else "explicit"
+        self._implicit, self._spectral_radius = None, float(shaped(spectral_radius, (), "spectral_radius", "a number"))
+        if not 0.0 <= self._spectral_radius <= 1.0:
+            raise ValueError(f"spectral_radius is {spectral_radius!r}; expected a number from 0 to 1")
+        if self.solver == "implicit":
+            implicit.refuse(self.scene)
         self._wound = _refined(self.scene, refine)  # and with the lengths that winches have given its lines
         self._segments = None if segments is None else int(segments)
         self._given_dt = dt
         self._layout = layout = Layout(self.scene)
         self._model, self._ends = build(self._wound, self._segments, layout)
-        self._identity = hashlib.sha256(b"".join(_bytes(self._model))).hexdigest()
+        self._identity = hashlib.sha256(b"".join((self.solver.encode(), *_bytes(self._model)))).hexdigest()
         self._state = new_state(self._model, self._ends)
         self._scratch = new_scratch(self._model)
         self._readings = new_readings(self._model, 1)
@@ -119,7 +125,10 @@ class Mooring:
         """What depends on the model alone."""
         self._statics = StaticSolver(self._wound, self._model)
         self.step_limit = step_limit(self._wound, self._model, self._ends, self._given_dt)
-        self._table = step_table(self.step_limit.axial, self.step_limit.dt)
+        self._table = step_table(self.step_limit.axial, self.step_limit.dt)  # of swings, too
+        if self.solver == "implicit":
+            self.step_limit = implicit.step_limit(self._wound, self.step_limit, self._given_dt)
+            self._implicit = self._implicit or implicit.ImplicitSolver(self._model, self.step_limit.dt, self._spectral_radius)
 
     # -- doing ------------------------------------------------------------------------------------------------------------------------
 
@@ -135,6 +144,8 @@ class Mooring:
         state.settings[5] = max(MOST_STRAIN, 2.0 * strain)
         waken(state.window_times)
         _assign(self._state, state)
+        if self._implicit:
+            self._implicit.begin(self._state)
         self.static_result = result
         self._settled = True
         if self.fidelity == "linear":
@@ -229,6 +240,8 @@ class Mooring:
         elif self._settled:
             settings = self._state.settings
             evaluate_once(self._model, self._state, self._scratch, settings[0], settings[1], bool(settings[2]))
+            if self._implicit:
+                self._implicit.begin(self._state)
             observe(self._model, self._state, 0, self._readings)
 
     def snapshot(self):
@@ -374,7 +387,7 @@ class Mooring:
     def energy(self):
         """core.energy.Energy, J: kinetic, strain, bending, potential and their total, after a settle or a dynamic step."""
         self._need_settled()
-        lead = 0.5 * self._state.settings[1] if self._table[0, 0] == LEAPFROG else 0.0  # its velocities stand half a step behind
+        lead = 0.5 * self._state.settings[1] if self._table[0, 0] == LEAPFROG and self.solver == "explicit" else 0.0  # its velocities stand half a step behind
         return energy(self._model, self._state, lead)
 
     @property
@@ -493,9 +506,12 @@ class Mooring:
             return self._run_statics(times, poses, twists, readings)
         if self.fidelity == "linear":
             return self._run_linear(times, poses, twists, readings)
-        status, done = explicit.run(
-            self._model, self._state, self._scratch, self._table, times, poses, twists, self._report, readings
-        )
+        if self.solver == "implicit":
+            status, done = self._implicit.run(self._model, self._state, self._scratch, times, poses, twists, self._report, readings)
+        else:
+            status, done = explicit.run(
+                self._model, self._state, self._scratch, self._table, times, poses, twists, self._report, readings
+            )
         if status != explicit.DONE:
             cause = {
                 explicit.RUNAWAY: f"ran away (speeds that nothing here can cause) even with a step of {self.step_limit.dt / explicit.FINEST:.3g} s; "

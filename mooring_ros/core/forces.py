@@ -69,12 +69,8 @@ def stream_past(model, state, time):
 
 
 @stage
-def evaluate(model, state, scratch, drag_time, bed_step, surfaced, flowing):
-    """Forces and accelerations of all nodes and parts from positions and velocities; prescribed points must stand in place.
-
-    `drag_time` (s): see `water_loads`; `bed_step` (s): see `bed_contact`. `surfaced`: some of the mooring may be above water. Otherwise `state.wet` must be ones.
-    `flowing`: the water is that of the time in state.settings; otherwise that of the last evaluation.
-    """
+def load_nodes(model, state, scratch, drag_time, bed_step, surfaced, flowing):
+    """Forces on all nodes, and their inertia, from positions and velocities: see `evaluate`."""
     if model.rigid.mass.size > 0:
         carry_parts(model, state)
         turn_clamps_with_parts(model, state)
@@ -98,6 +94,16 @@ def evaluate(model, state, scratch, drag_time, bed_step, surfaced, flowing):
         bed_contact(model, state, bed_step)
     if model.hulls.point.size > 0:
         load_free_hulls(model, state)
+
+
+@stage
+def evaluate(model, state, scratch, drag_time, bed_step, surfaced, flowing):
+    """Forces and accelerations of all nodes and parts from positions and velocities; prescribed points must stand in place.
+
+    `drag_time` (s): see `water_loads`; `bed_step` (s): see `bed_contact`. `surfaced`: some of the mooring may be above water. Otherwise `state.wet` must be ones.
+    `flowing`: the water is that of the time in state.settings; otherwise that of the last evaluation.
+    """
+    load_nodes(model, state, scratch, drag_time, bed_step, surfaced, flowing)
     accelerations(model, state)
     if model.free_points.size + model.rigid.mass.size > 0:
         gather(model, state, scratch)

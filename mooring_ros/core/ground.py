@@ -162,16 +162,16 @@ def _smooth(first, stop, step, position, velocity, tangent, bed_stiffness, bed_d
 
 
 @stage
-def _in_plane(x, y, z, nx, ny, nz):
+def in_plane(x, y, z, nx, ny, nz):
     """Part of a vector in the plane across the unit normal."""
     along = x * nx + y * ny + z * nz
     return x - along * nx, y - along * ny, z - along * nz
 
 
 @stage
-def _along_bed(tx, ty, tz, nx, ny, nz):
+def along_bed(tx, ty, tz, nx, ny, nz):
     """(part of the tangent in the bed's plane (3,), its square, the square's inverse: zero for a node that stands upright)."""
-    px, py, pz = _in_plane(tx, ty, tz, nx, ny, nz)
+    px, py, pz = in_plane(tx, ty, tz, nx, ny, nz)
     square = px * px + py * py + pz * pz
     inverse = 1.0 / max(square, UPRIGHT)
     return px, py, pz, square, inverse if square > UPRIGHT else 0.0
@@ -207,10 +207,10 @@ def _saturated(
         gx, gy, gz = fx[i] + push * nx, fy[i] + push * ny, fz[i] + push * nz
         # velocities in the plane, now (v) and after the step without friction (d), split along and across the line
         tf = surplus * (tx * gx + ty * gy + tz * gz)
-        vx, vy, vz = _in_plane(u[i], v[i], w[i], nx, ny, nz)
-        dx, dy, dz = _in_plane(across * gx + tf * tx, across * gy + tf * ty, across * gz + tf * tz, nx, ny, nz)
+        vx, vy, vz = in_plane(u[i], v[i], w[i], nx, ny, nz)
+        dx, dy, dz = in_plane(across * gx + tf * tx, across * gy + tf * ty, across * gz + tf * tz, nx, ny, nz)
         dx, dy, dz = vx + step * dx, vy + step * dy, vz + step * dz
-        px, py, pz, square, inverse = _along_bed(tx, ty, tz, nx, ny, nz)
+        px, py, pz, square, inverse = along_bed(tx, ty, tz, nx, ny, nz)
         inverse *= directional
         give_across = step * across
         give_axial = give_across + step * surplus * square
@@ -260,7 +260,7 @@ def _sticking(
         tf = surplus * (tx * gx + ty * gy + tz * gz)
         spring, resist = stiffer * bed_stiffness[i], denser * bed_damping[i] + step * stiffer * bed_stiffness[i]
         remembered = spring if state[i] >= 0.0 else 0.0
-        dx, dy, dz = _in_plane(
+        dx, dy, dz = in_plane(
             remembered * (x[i] - grip_x[i]) + resist * (u[i] + step * (across * gx + tf * tx)),
             remembered * (y[i] - grip_y[i]) + resist * (v[i] + step * (across * gy + tf * ty)),
             remembered * (z[i] - grip_z[i]) + resist * (w[i] + step * (across * gz + tf * tz)),
@@ -268,7 +268,7 @@ def _sticking(
             ny,
             nz,
         )
-        px, py, pz, square, inverse = _along_bed(tx, ty, tz, nx, ny, nz)
+        px, py, pz, square, inverse = along_bed(tx, ty, tz, nx, ny, nz)
         axial = inverse * (dx * px + dy * py + dz * pz)
         dx, dy, dz = dx - axial * px, dy - axial * py, dz - axial * pz
         lightly = 1.0 / max(push, LEAST)
@@ -307,10 +307,10 @@ def commit_grip(ground, size, position, velocity, tangent, bed_stiffness, bed_da
             grip[0, i], grip[1, i], grip[2, i], grip[3, i] = position[0, i], position[1, i], position[2, i], STICKING
         speed = velocity[0, i] * nx + velocity[1, i] * ny + velocity[2, i] * nz
         push = max(bed_stiffness[i] * depth - bed_damping[i] * speed, LEAST)
-        rx, ry, rz = _in_plane(position[0, i] - grip[0, i], position[1, i] - grip[1, i], position[2, i] - grip[2, i], nx, ny, nz)
-        vx, vy, vz = _in_plane(velocity[0, i], velocity[1, i], velocity[2, i], nx, ny, nz)
+        rx, ry, rz = in_plane(position[0, i] - grip[0, i], position[1, i] - grip[1, i], position[2, i] - grip[2, i], nx, ny, nz)
+        vx, vy, vz = in_plane(velocity[0, i], velocity[1, i], velocity[2, i], nx, ny, nz)
         t = (tangent[0, i] + tangent[0, i + 1], tangent[1, i] + tangent[1, i + 1], tangent[2, i] + tangent[2, i + 1])
-        px, py, pz, _, inverse = _along_bed(t[0], t[1], t[2], nx, ny, nz)
+        px, py, pz, _, inverse = along_bed(t[0], t[1], t[2], nx, ny, nz)
         scale = np.sqrt(inverse)
         ex, ey, ez = scale * px, scale * py, scale * pz
         spring, damper = ground.stiffness_ratio * bed_stiffness[i], ground.damping_ratio * bed_damping[i]
@@ -365,9 +365,9 @@ def ground_blocks(ground, size, position, tangent, bed_stiffness, bed, grip, dia
                     diagonal[i, a, b] -= stiffness * depth * (after[a] - before[a]) / (2.0 * NEAR)
         if ground.law != STICK or grip[3, i] < 0.0:
             continue
-        e = _in_plane(position[0, i] - grip[0, i], position[1, i] - grip[1, i], position[2, i] - grip[2, i], n[0], n[1], n[2])
+        e = in_plane(position[0, i] - grip[0, i], position[1, i] - grip[1, i], position[2, i] - grip[2, i], n[0], n[1], n[2])
         t = (tangent[0, i] + tangent[0, i + 1], tangent[1, i] + tangent[1, i + 1], tangent[2, i] + tangent[2, i + 1])
-        px, py, pz, _, inverse = _along_bed(t[0], t[1], t[2], n[0], n[1], n[2])
+        px, py, pz, _, inverse = along_bed(t[0], t[1], t[2], n[0], n[1], n[2])
         scale = np.sqrt(inverse)
         d = (scale * px, scale * py, scale * pz)
         sliding = grip[3, i] > 0.0

@@ -115,6 +115,8 @@ class State(NamedTuple):
     position: np.ndarray  # (3, n), m
     velocity: np.ndarray  # (3, n), m/s
     acceleration: np.ndarray  # (3, n), m/s^2
+    filtered: np.ndarray  # (3, n), m/s^2: acceleration that carries the implicit steps (implicit_newton.py)
+    parts_filtered: np.ndarray  # (B, 6), m/s^2, rad/s^2
     force: np.ndarray  # (3, n), N: all forces on a node but inertia
     tangent: np.ndarray  # (3, n): unit vectors of the segments, null for null segments
     tension: np.ndarray  # (n,), N, of the segments
@@ -393,6 +395,8 @@ def new_state(model, end_point):
         velocity=np.zeros((3, n)),
         acceleration=np.zeros((3, n)),
         force=np.zeros((3, n)),
+        filtered=np.zeros((3, n)),
+        parts_filtered=np.zeros((parts, 6)),
         tangent=np.zeros((3, n)),
         tension=np.zeros(n),
         strain_rate=np.zeros(n),

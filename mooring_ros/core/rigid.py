@@ -153,6 +153,28 @@ def _solve(matrix, first):
         matrix[i, 6] = total / max(matrix[i, i], matrix[i, 7])
 
 
+@stage
+def part_equations(model, state, load, b, quaternion, r, omega, matrix):
+    """Equations of motion of part b about its origin into `matrix` (6, 7+), inertia and right-hand side; `load` (P, 9) from `points.gather`."""
+    rigid = model.rigid
+    for i in range(6):
+        for j in range(7):
+            matrix[i, j] = 0.0
+    _add_body(model, state, b, r, omega, matrix)
+    add_hulls(model, state, b, quaternion, omega, rigid.mass[b], matrix)
+    for i in range(rigid.riding.size):
+        p = rigid.riding[i]
+        if rigid.part[p] == b:
+            arm = _arm(model, state, b, p)
+            m = load[p]
+            _add_load(matrix, arm, (m[0], m[1], m[2]))
+            _add_mass(matrix, ((m[3], m[6], m[7]), (m[6], m[4], m[8]), (m[7], m[8], m[5])), arm, omega)
+    for c in range(model.clamps.part.size):
+        if model.clamps.part[c] == b:
+            for k in range(3):
+                matrix[3 + k, 6] += state.clamp_moment[c, k]
+
+
 @routine
 def move_parts(model, state, scratch):
     """Accelerations of the parts from what `points.gather` has put into scratch.load, given to all that rides on them.
@@ -166,22 +188,7 @@ def move_parts(model, state, scratch):
         r = rotation_matrix(quaternion)
         lag, omega = state.settings[8], (parts[b, 10], parts[b, 11], parts[b, 12])
         for _ in range(1 if lag == 0.0 else LAG_PASSES):
-            for i in range(6):
-                for j in range(7):
-                    matrix[i, j] = 0.0
-            _add_body(model, state, b, r, omega, matrix)
-            add_hulls(model, state, b, quaternion, omega, rigid.mass[b], matrix)
-            for i in range(rigid.riding.size):
-                p = rigid.riding[i]
-                if rigid.part[p] == b:
-                    arm = _arm(model, state, b, p)
-                    m = load[p]
-                    _add_load(matrix, arm, (m[0], m[1], m[2]))
-                    _add_mass(matrix, ((m[3], m[6], m[7]), (m[6], m[4], m[8]), (m[7], m[8], m[5])), arm, omega)
-            for c in range(model.clamps.part.size):
-                if model.clamps.part[c] == b:
-                    for k in range(3):
-                        matrix[3 + k, 6] += state.clamp_moment[c, k]
+            part_equations(model, state, load, b, quaternion, r, omega, matrix)
             if rigid.pin[b] >= 0:
                 _turn_about_pin(model, state, b, matrix)
             else:
@@ -190,7 +197,7 @@ def move_parts(model, state, scratch):
                     state.parts_acceleration[b, k] = matrix[k, 6]
             a = state.parts_acceleration[b]
             omega = (parts[b, 10] + lag * a[3], parts[b, 11] + lag * a[4], parts[b, 12] + lag * a[5])
-    _accelerate_riders(model, state)
+    accelerate_riders(model, state)
 
 
 @stage
@@ -223,7 +230,7 @@ def _turn_about_pin(model, state, b, matrix):
 
 
 @stage
-def _accelerate_riders(model, state):
+def accelerate_riders(model, state):
     rigid, acceleration = model.rigid, state.acceleration
     for i in range(rigid.riding.size):
         p = rigid.riding[i]

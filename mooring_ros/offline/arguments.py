@@ -15,7 +15,7 @@ from .console import reading
 def add_model_arguments(parser):
     """--fidelity, --solver, --dt, --segments, --refine: how the scene is computed. Left out, the scene decides."""
     parser.add_argument("--fidelity", type=fidelity, metavar="F", help="how much physics: linear, quasi_static or dynamic (default: dynamic)")
-    parser.add_argument("--solver", type=solver, metavar="S", help="how the dynamics are stepped: explicit or auto (default: auto)")
+    parser.add_argument("--solver", type=solver, metavar="S", help="how the dynamics are stepped: explicit, implicit or auto (default: auto)")
     parser.add_argument("--dt", type=positive, metavar="S", help="time step in s (default: the largest stable one, with a margin)")
     parser.add_argument("--segments", type=count, metavar="N", help="segments of every line (default: as in the scene)")
     parser.add_argument("--refine", type=positive, metavar="X", help="the scene's segments of each line times this; not with --segments")
