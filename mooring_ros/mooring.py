@@ -28,10 +28,10 @@ from .core.poses import between, moved
 from .core.statics import StaticSolver
 from .core.waves import waken
 from .errors import MooringError
+from .fidelity import EXPECTED, FIDELITIES, is_by_line
 from .history import History
 from .scene import COUPLED, Scene, load_scene
 
-FIDELITIES = ("dynamic", "quasi_static", "linear")
 SOLVERS = ("auto", "explicit", "implicit")
 MOST_SEGMENTS = 100_000  # of a line
 MOST_STRAIN = 1.0  # of a line in motion, or twice that of the settled one
@@ -60,9 +60,10 @@ class Mooring:
     """Mooring lines between the ground and a moving platform.
 
     scene: path of a MoorDyn v2 file, or a `Scene`. fidelity: "dynamic", or "quasi_static": equilibrium at every sample, without inertia, damping
-    and drag of the motion, or "linear": the 6 x 6 stiffness, and tensions to first order, about the last settled pose (dt has no meaning in
-    these two). solver: "auto", "explicit" or "implicit" (docs/solvers.md). dt: largest step of the solver (s),
-    None for the largest that is stable, or of the implicit solver one that follows the motion; of the explicit one a dt beyond is not taken.
+    and drag of the motion, or "linear": the 6 x 6 stiffness, and tensions to first order, about the last settled pose, and about others where the
+    platform leaves the range of that (see `error_estimate`); dt has no meaning in these two. Line by line: {"line1": "dynamic", "default": "linear"},
+    or the text "line1=dynamic,default=linear" (mixed.py). solver: "auto", "explicit" or "implicit" (docs/solvers.md). dt: largest step of the solver
+    (s), None for the largest that is stable, or of the implicit solver one that follows the motion; of the explicit one a dt beyond is not taken.
     spectral_radius: of the implicit solver, 0..1: the share of waves too quick for the step that a step leaves. segments: segments of every line, None for the file's; refine: the file's
     segments of each line times this, rounded, where lines of unlike lengths share a mesh.
 
@@ -71,9 +72,16 @@ class Mooring:
     Raises SceneError for a bad scene, ValueError for bad arguments; MooringError when a computation cannot be completed.
     """
 
+    def __new__(cls, scene=None, fidelity="dynamic", *_, **__):
+        if cls is Mooring and is_by_line(fidelity):
+            from .mixed import MixedMooring
+
+            return object.__new__(MixedMooring)
+        return object.__new__(cls)
+
     def __init__(self, scene, fidelity="dynamic", solver="auto", dt=None, segments=None, refine=1.0, spectral_radius=implicit.SPECTRAL_RADIUS):
         if fidelity not in FIDELITIES:
-            raise ValueError(f"fidelity {fidelity!r} is not built; expected one of {', '.join(FIDELITIES)}")
+            raise ValueError(f"fidelity {fidelity!r} is not built; expected {EXPECTED}")
         if solver not in SOLVERS:
             raise ValueError(f"solver {solver!r} is not built; expected one of {', '.join(SOLVERS)}")
         if dt is not None and not 0.0 < float(shaped(dt, (), "dt", "seconds")) < np.inf:

@@ -6,7 +6,8 @@ from typing import Any
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor, SetParametersResult
 from rclpy.parameter import Parameter
 
-from mooring_ros.mooring import FIDELITIES, SOLVERS
+from mooring_ros.fidelity import EXPECTED, check
+from mooring_ros.mooring import SOLVERS
 from mooring_ros.motion.frames import CONVENTIONS, TWIST_FRAMES, WRENCH_FRAMES
 from mooring_ros.node.timing import MODES
 
@@ -17,7 +18,8 @@ _HUGE, _TINY = 1e18, 1e-6
 
 @dataclass(frozen=True)
 class Entry:
-    """One parameter. fixed: a change needs cleanup and configure. low, high: range of a number. choices: of a text."""
+    """One parameter. fixed: a change needs cleanup and configure. low, high: range of a number. choices: of a text; or
+    check(text), which raises ValueError, and expected: what it asks for, in words."""
 
     name: str
     default: Any
@@ -26,12 +28,14 @@ class Entry:
     low: float = 0.0
     high: float = _HUGE
     choices: tuple = ()
+    check: Any = None
+    expected: str = ""
 
 
 TABLE = (
     Entry("autostart", True, "Configure and activate at start, without a lifecycle manager.", fixed=True),
     Entry("scene", "", "Path of the MoorDyn v2 input file.", fixed=True),
-    Entry("fidelity", "dynamic", "Model of the lines.", fixed=True, choices=FIDELITIES),
+    Entry("fidelity", "dynamic", "Model of the lines, of all or line by line.", fixed=True, check=check, expected=EXPECTED),
     Entry("solver", "auto", "Time integration of the dynamic lines.", fixed=True, choices=SOLVERS),
     Entry("dt", 0.0, "Internal time step (s); 0: chosen from the stability limits of the scene.", fixed=True, high=1e3),
     Entry("segments", 0, "Segments of each line; 0: as in the scene.", fixed=True, high=100_000),
@@ -88,6 +92,8 @@ def _descriptor(entry):
     descriptor = ParameterDescriptor(description=words)
     if entry.choices:
         descriptor.additional_constraints = "one of " + ", ".join(entry.choices)
+    if entry.expected:
+        descriptor.additional_constraints = entry.expected
     if isinstance(entry.default, float):
         descriptor.floating_point_range = [FloatingPointRange(from_value=entry.low, to_value=entry.high)]
     elif isinstance(entry.default, int) and not isinstance(entry.default, bool):
@@ -111,6 +117,11 @@ def _check(changes, configured):
             return _refused(f"{entry.name} is fixed while configured: clean up first")
         if entry.choices and change.value not in entry.choices:
             return _refused(f"{entry.name} is '{change.value}', expected one of {', '.join(entry.choices)}")
+        if entry.check:
+            try:
+                entry.check(change.value)
+            except ValueError as error:
+                return _refused(str(error))
         if isinstance(change.value, float) and not math.isfinite(change.value):
             return _refused(f"{entry.name} is {change.value}, expected a finite number")
     return SetParametersResult(successful=True)

@@ -14,7 +14,9 @@ from .console import reading
 
 def add_model_arguments(parser):
     """--fidelity, --solver, --dt, --segments, --refine: how the scene is computed. Left out, the scene decides."""
-    parser.add_argument("--fidelity", type=fidelity, metavar="F", help="how much physics: linear, quasi_static or dynamic (default: dynamic)")
+    parser.add_argument(
+        "--fidelity", type=fidelity, metavar="F", help="how much physics: linear, quasi_static or dynamic (default), or line by line: line1=dynamic,linear"
+    )
     parser.add_argument("--solver", type=solver, metavar="S", help="how the dynamics are stepped: explicit, implicit or auto (default: auto)")
     parser.add_argument("--dt", type=positive, metavar="S", help="time step in s (default: the largest stable one, with a margin)")
     parser.add_argument("--segments", type=count, metavar="N", help="segments of every line (default: as in the scene)")
@@ -22,10 +24,14 @@ def add_model_arguments(parser):
 
 
 def fidelity(text):
-    """One of the fidelities that are built; for argparse."""
-    from mooring_ros.mooring import FIDELITIES
+    """A fidelity, or fidelities line by line; for argparse."""
+    from mooring_ros.fidelity import check
 
-    return _one_of(text, FIDELITIES)
+    try:
+        check(text)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from error
+    return text
 
 
 def solver(text):

@@ -64,6 +64,7 @@ def test_a_missing_scene_is_said_loudly_and_the_node_lives_on(tmp_path):
 @pytest.mark.parametrize("arguments, words", [
     (["-p", "convention:=nwu"], "convention"),
     (["-p", "solver:=leapfrog"], "explicit"),
+    (["-p", "fidelity:=line1=quick"], "quick"),
     (["-p", "timing.rate:=-5"], "timing.rate"),
     (["-p", "dt:=abc"], "dt"),
     (["--params-file", "nowhere.yaml"], "nowhere.yaml"),

@@ -191,3 +191,14 @@ def test_ctrl_c_leaves_both_files_closed_and_readable(scene, tmp_path):
     assert np.array_equal(history.series["line1.fairlead_tension"], rows[:, 1])
     assert Recording(tmp_path / "out.mcap").cut is None
     assert not list(tmp_path.glob("*.part*"))
+
+
+def test_fidelities_line_by_line_are_replayed_and_recorded(scene, motion, mooring, tmp_path):
+    words = ["--fidelity", "line1=quasi_static,default=linear"]
+    assert mooring("replay", scene, motion, "-o", tmp_path / "one.mcap", "--csv", tmp_path / "one.csv", *words).status == 0
+    given = load_motion(motion)
+    assert np.array_equal(table(tmp_path / "one.csv")[1], by_hand(scene, given.times, given.poses, given.twists, fidelity={"line1": "quasi_static", "line2": "linear"}))
+    found = mooring("replay", scene, tmp_path / "one.mcap", "-o", tmp_path / "two.mcap", "--json").json()
+    assert found["identical"] == {"same": 61, "total": 61} and found["settings"]["fidelity"] == "line1=quasi_static,default=linear"
+    refused = mooring("replay", scene, motion, "-o", tmp_path / "three.mcap", "--fidelity", "line9=linear")
+    assert refused.status == 2 and "line9" in refused.err and "expected line1, line2" in refused.err

@@ -50,7 +50,7 @@ BAD = [
     (["replay", "{scene}", "{motion}", "-o", "{out}", "--csv", "{motion}"], "the output is an input as well, expected another name"),
     (["replay", "{scene}", "{motion}", "-o", "{out}", "--csv", "{out}"], "both outputs have this name, expected two names"),
     (["replay", "{scene}", "{motion}", "-o", "{out}", "--csv", "{dir}"], "is a folder, expected a file name"),
-    (["replay", "{scene}", "{motion}", "-o", "{out}", "--fidelity", "perfect"], "'perfect' is not there, expected one of dynamic"),
+    (["replay", "{scene}", "{motion}", "-o", "{out}", "--fidelity", "perfect"], "'perfect' is not built; expected one of dynamic"),
     (["replay", "{scene}", "{motion}", "-o", "{out}", "--solver", "magic"], "'magic' is not there, expected one of auto, explicit"),
     (["replay", "{scene}", "{motion}", "-o", "{out}", "--dt", "0"], "'0': expected a positive number"),
     (["replay", "{scene}", "{motion}", "-o", "{out}", "--dt", "-0.1"], "expected a positive number"),
