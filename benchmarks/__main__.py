@@ -11,6 +11,7 @@ from . import machine, tables
 BENCHMARKS = {
     "peer_moordyn": "OC4 and VolturnUS-S chains: how far the converged runs of MoorDyn and ours are apart",
     "peer_cost": "what a simulated second costs beside MoorDyn's and CableDyn's best, at the same error (the peers' runs are kept)",
+    "trades": "the trade of speed for accuracy on twelve moorings, beside MoorDyn's and CableDyn's best (half an hour)",
     "closed_forms": "statics and platform stiffness against closed forms",
     "kernel_cost": "ns for one node and force evaluation, against a bare vector kernel",
     "bergdahl": "the 33 m laboratory chain: 30 measured maxima",
@@ -28,7 +29,7 @@ BENCHMARKS = {
 }
 MODULES = {"node_latency": "latency_table"}  # where it is not the name itself
 DOCS = Path(__file__).parent.parent / "docs"
-DOCUMENTS = (DOCS / "measurements.md", DOCS / "physics.md")
+DOCUMENTS = (DOCS / "measurements.md", DOCS / "physics.md", DOCS / "trades.md")
 
 
 def arguments(argv):

@@ -115,6 +115,9 @@ def of_ours(case, solver="auto", dt=None, rate=20.0, refinement=1, call="run"):
     try:
         mooring = Mooring(scene, solver=solver, dt=dt)
         mooring.settle(at_rest(motion))
+        saved = mooring.snapshot()
+        mooring.run(times[:1], poses[:1], twists[:1])  # compiles
+        mooring.restore(saved)
         if call == "run":
             began = time.process_time()
             history = mooring.run(times, poses, twists)

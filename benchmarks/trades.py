@@ -1,0 +1,180 @@
+"""The trade of speed for accuracy on twelve moorings: ours by `mooring trade`, and MoorDyn's and CableDyn's best beside it.
+
+Cost is CPU time for a simulated second. The error is that of the force on the platform at the fairleads, against the same code's run that is converged in space
+and time: the worst of mean, dynamic and peak of the worst line, as `mooring trade` counts it. The peers' runs are kept outside the repository, and so are ours
+until a source of the core changes.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from mooring_ros.offline.console import ComputationFailed
+from mooring_ros.offline.motion_file import Motion
+from mooring_ros.offline.trade import trade
+from mooring_ros.offline.trade_cache import Cache
+from mooring_ros.offline.trade_errors import errors_between
+
+from . import figures, peer_search, tables
+from .motions import poses_and_twists
+from .peer_cases import BY_NAME, TRADED, fairleads
+
+SECONDS = 60.0  # of CPU time for a trade of ours
+SAMPLES = 120  # in a period, at most 20 Hz
+COARSE = ("RM3 cable", "lazy wave", "laboratory chain, 33 m")  # whose fine runs cost MoorDyn minutes: its reference has twice the segments, else four times
+SHOWN = 0.01  # error at which the codes are compared in the table
+METHODS = {  # of ours: marker and colour index
+    "dynamic, explicit": ("o", 0), "dynamic, implicit": ("s", 3), "quasi_static": ("^", 5), "linear": ("v", 7),
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Point:
+    """A setting in the plane of cost and error."""
+
+    code: str  # "MoorDyn", "CableDyn", or a method of ours
+    label: str
+    error: float
+    cost: float  # s/s
+    worst_step: float = math.nan  # s
+
+
+def ours(case):
+    """Points of our trade: what was run and not refused, errors of the fairleads' forces."""
+    scene, motion = case.still(), sampled(case)
+    found = trade(scene, motion, of="force", seconds=SECONDS)
+    ends = [k for k, _ in fairleads(scene)]
+    cache, rows, points = Cache(scene, motion), slice(found.window.compared, None), []
+    for result in found.results:
+        run = cache.recall(result.setting, found.window, True) if result.measured and not result.refused else None
+        if run is not None and not run.refused:
+            errors = errors_between(run.force[rows][:, ends], found.reference.tension[:, ends])
+            label = f"{result.setting.method}, {result.setting.mesh} segments, step {result.setting.step}"
+            points.append(Point(result.setting.method, label, errors.worst / 100.0, run.cost, run.worst_step))
+    return points, float(found.reference.error.max()) / 100.0
+
+
+def sampled(case):
+    """The motion as a recording: samples of pose and twist."""
+    platform = case.platform()
+    rate = max(20.0, SAMPLES / peer_search.period(case))
+    times = np.arange(int(np.ceil(platform.end * rate)) + 1) / rate
+    poses, twists = poses_and_twists(*platform.displacement(times))
+    return Motion(path=case.name, times=times, poses=poses, twists=twists, stamps=np.round(times * 1e9).astype(np.int64), source="made here")
+
+
+def measure(outcome, reference, motion):
+    """The trade's error of a peer's run, as a fraction; inf where it failed."""
+    if outcome.failure:
+        return math.inf
+    end = min(outcome.times[-1], reference.times[-1])
+    times = reference.times[(reference.times >= motion.start) & (reference.times <= end)]
+    run, known = (CubicSpline(x.times, x.force)(times) for x in (outcome, reference))
+    error = errors_between(run, known).worst / 100.0
+    return error if np.isfinite(error) else math.inf
+
+
+def of_moordyn(case):
+    """MoorDyn's points, and why there are none."""
+    reference = peer_search.moordyn_reference(case, 2 if case.name in COARSE else 4, 2)
+    if reference.failure:
+        return [], reference.failure
+    return _points("MoorDyn", peer_search.moordyn_grid(case, reference, measure)), ""
+
+
+def of_cabledyn(case):
+    """CableDyn's points, and why there are none."""
+    reference = peer_search.cabledyn_reference(case)
+    if reference.failure:
+        return [], reference.failure
+    return _points("CableDyn", peer_search.cabledyn_settings(case, reference, measure)), ""
+
+
+def _points(code, settings):
+    return [Point(code, s.label(), s.error, s.cost) for s in settings if np.isfinite(s.error)]
+
+
+def run(quick=False):
+    """All twelve (quick: two); prints the tables."""
+    found = {}
+    for name in TRADED[:2] if quick else TRADED:
+        case = BY_NAME[name]
+        try:
+            mine, known = ours(case)
+        except ComputationFailed as failure:
+            mine, known = [], math.nan
+            print(f"{name}: {failure}", flush=True)
+        (moordyn, no_moordyn), (cabledyn, no_cabledyn) = of_moordyn(case), of_cabledyn(case)
+        found[name] = {"points": [*mine, *moordyn, *cabledyn], "known": known, "why": {"MoorDyn": no_moordyn, "CableDyn": no_cabledyn}}
+        print(name, {code: _words(cheapest(found[name]["points"], code)) for code in ("ours", "MoorDyn", "CableDyn")}, flush=True)
+    content = {"trades_best": best_table(found), "trades_front": front_table(found)}
+    print("\n" + "\n\n".join(content.values()), flush=True)
+    cases = {name: {**f, "points": [p.__dict__ for p in f["points"]]} for name, f in found.items()}
+    return {"cases": cases, "tables": content, "failed": [], "figures": {"trades.png": figure(found)}}
+
+
+def of_code(points, code):
+    """The points of a code; "ours": of all its methods."""
+    return [p for p in points if (p.code == code or (code == "ours" and p.code not in ("MoorDyn", "CableDyn")))]
+
+
+def cheapest(points, code, error=SHOWN):
+    """The cheapest of a code within an error; None where there is none."""
+    within = [p for p in of_code(points, code) if p.error <= error]
+    return min(within, key=lambda p: p.cost) if within else None
+
+
+def _words(point):
+    return "none" if point is None else f"{point.label}: {100 * point.error:.2g} %, {1e3 * point.cost:.3g} ms/s"
+
+
+def best_table(found):
+    """Each code's cheapest setting within 1 %."""
+    header = ["mooring", "ours", "error", "CPU ms per simulated s", "worst step, ms", "MoorDyn", "CPU ms per simulated s", "CableDyn", "CPU ms per simulated s"]
+    rows = []
+    for name, f in found.items():
+        mine = cheapest(f["points"], "ours")
+        row = [name]
+        row += [mine.label, f"{100 * mine.error:.2g} %", f"{1e3 * mine.cost:.3g}", f"{1e3 * mine.worst_step:.3g}"] if mine else ["none", "", "", ""]
+        for code in ("MoorDyn", "CableDyn"):
+            theirs = cheapest(f["points"], code)
+            row += [theirs.label, f"{1e3 * theirs.cost:.3g}"] if theirs else ["none" if of_code(f["points"], code) else "cannot", ""]
+        rows.append(row)
+    return tables.table(header, rows)
+
+
+def front_table(found):
+    """Our front: what no other setting is both cheaper and more accurate than."""
+    rows = []
+    for name, f in found.items():
+        for p in peer_search.front(of_code(f["points"], "ours")):
+            rows.append([name, p.label, f"{100 * p.error:.2g} %", f"{1e3 * p.cost:.3g}", f"{1.0 / p.cost:.3g}", f"{1e3 * p.worst_step:.3g}"])
+    return tables.table(["mooring", "setting", "error", "CPU ms per simulated s", "times real time", "worst step, ms"], rows)
+
+
+def figure(found):
+    """Cost and error of all settings, a panel for each mooring."""
+    picture, grid = figures.axes(-(-len(found) // 3), 3, height=3.0 * -(-len(found) // 3))
+    for axis, (name, f) in zip(grid.flat, found.items(), strict=False):
+        for method, (marker, colour) in METHODS.items():
+            _scatter(axis, [p for p in f["points"] if p.code == method], marker, figures.COLOURS[colour], f"ours: {method}")
+        front = peer_search.front(of_code(f["points"], "ours"))
+        axis.plot([1e3 * p.cost for p in front], [100 * p.error for p in front], color=figures.COLOURS[0], linewidth=1.0, label="ours: front")
+        for code, marker in (("MoorDyn", "x"), ("CableDyn", "+")):
+            colour = figures.STYLES[code]["color"]
+            _scatter(axis, of_code(f["points"], code), marker, colour, code)
+            front = peer_search.front(of_code(f["points"], code))
+            axis.plot([1e3 * p.cost for p in front], [100 * p.error for p in front], color=colour, linewidth=1.0, linestyle="--")
+        axis.set(xscale="log", yscale="log", xlabel="CPU ms per simulated s", ylabel="error (%)")
+        axis.set_title(name, loc="left", fontsize=9)
+        axis.set_ylim(top=min(100.0, axis.get_ylim()[1]))
+    handles = {label: handle for axis in grid.flat for handle, label in zip(*axis.get_legend_handles_labels(), strict=True)}
+    picture.legend(handles.values(), handles.keys(), loc="outside upper center", ncols=4, frameon=False, fontsize=9)
+    return picture
+
+
+def _scatter(axis, points, marker, colour, label):
+    if points:
+        axis.scatter([1e3 * p.cost for p in points], [100 * p.error for p in points], s=14, marker=marker, color=colour, label=label, linewidths=0.9, alpha=0.8)
