@@ -13,8 +13,8 @@ CLOSE = 1.07  # the search ends when a step that will not do is this much larger
 SMALLEST = 0.02  # transit times
 MOORDYN_MESHES = (0.5, 1.0, 2.0)
 NEAR_LARGEST = {"Euler": (0.6,), "RK2": (0.6, 0.95), "Midpoint4": (1.6, 2.4)}  # steps in transit times
-MESHES = (0.35, 0.5, 0.7, 1.0, 1.4, 2.0)  # CableDyn's elements for each segment of the case
-STEPS_IN_A_PERIOD = (25, 50, 70, 100, 200, 400)
+MESHES = (0.5, 0.7, 1.0, 1.4, 2.0)  # CableDyn's elements for each segment of the case
+STEPS_IN_A_PERIOD = (25, 50, 100, 200, 400)
 PERIOD = 10.0  # s, of motions without one
 
 
@@ -74,10 +74,10 @@ def moordyn_settings(case, reference, allowed, schemes=tuple(SCHEMES)):
     return list(tried.values())
 
 
-def moordyn_grid(case, reference, measure=error):
-    """Runs over meshes, schemes and steps near their largest, with their errors in space and time."""
+def moordyn_grid(case, reference, measure=error, finest=MOORDYN_MESHES[-1]):
+    """Runs over meshes up to ``finest``, schemes and steps near their largest, with their errors in space and time."""
     motion, tried = case.platform(), []
-    for mesh in MOORDYN_MESHES:
+    for mesh in (m for m in MOORDYN_MESHES if m <= finest):
         for scheme, multiples in NEAR_LARGEST.items():
             for multiple in multiples:
                 dt = rounded(multiple * transit(case, mesh))
@@ -100,7 +100,7 @@ def cabledyn_settings(case, reference, measure=error, meshes=MESHES, steps=STEPS
             run = of_cabledyn(case, rounded(period(case) / count), mesh)
             found = Setting(f"mesh x {mesh:g}", rounded(period(case) / count), mesh, measure(run, reference, motion), run.cost, run.failure)
             row.append(found)
-            if len(row) > 3 and 0.9 * row[-2].error < found.error < 1.0:
+            if len(row) > 2 and 0.9 * row[-2].error < found.error < 1.0:
                 break
         tried += row
     return tried

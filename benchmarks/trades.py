@@ -23,7 +23,10 @@ from .peer_cases import BY_NAME, TRADED, fairleads
 
 SECONDS = 60.0  # of CPU time for a trade of ours
 SAMPLES = 120  # in a period, at most 20 Hz
-COARSE = ("RM3 cable", "lazy wave", "laboratory chain, 33 m")  # whose fine runs cost MoorDyn minutes: its reference has twice the segments, else four times
+DEAR = (  # whose fine runs cost the peers minutes each
+    "laboratory chain, 33 m", "VolturnUS-S semi-taut", "VolturnUS-S semi-taut, up a slope", "VolturnUS-S semi-taut, rough bed", "RM3 cable", "lazy wave",
+    "ISWEC, bridles and clump weights", "farm of 100 lines",
+)  # fmt: skip
 SHOWN = 0.01  # error at which the codes are compared in the table
 METHODS = {  # of ours: marker and colour index
     "dynamic, explicit": ("o", 0), "dynamic, implicit": ("s", 3), "quasi_static": ("^", 5), "linear": ("v", 7),
@@ -77,19 +80,23 @@ def measure(outcome, reference, motion):
 
 
 def of_moordyn(case):
-    """MoorDyn's points, and why there are none."""
-    reference = peer_search.moordyn_reference(case, 2 if case.name in COARSE else 4, 2)
+    """MoorDyn's points, and why there are none. On dear moorings its converged run has twice the segments, else four times, and half of those are the finest mesh."""
+    finest = 1.0 if case.name in DEAR else 2.0
+    reference = peer_search.moordyn_reference(case, 2.0 * finest, 2)
     if reference.failure:
         return [], reference.failure
-    return _points("MoorDyn", peer_search.moordyn_grid(case, reference, measure)), ""
+    return _points("MoorDyn", peer_search.moordyn_grid(case, reference, measure, finest)), ""
 
 
 def of_cabledyn(case):
-    """CableDyn's points, and why there are none."""
-    reference = peer_search.cabledyn_reference(case)
+    """CableDyn's points, and why there are none; the same of its meshes and its converged run, but for steps twice as long on dear moorings."""
+    dear = case.name in DEAR
+    reference = peer_search.cabledyn_reference(case, 2 if dear else 4, 400 if dear else 800)
     if reference.failure:
         return [], reference.failure
-    return _points("CableDyn", peer_search.cabledyn_settings(case, reference, measure)), ""
+    meshes = [m for m in peer_search.MESHES if m <= (1.0 if dear else 2.0)]
+    steps = [n for n in peer_search.STEPS_IN_A_PERIOD if n <= (200 if dear else 400)]
+    return _points("CableDyn", peer_search.cabledyn_settings(case, reference, measure, meshes, steps)), ""
 
 
 def _points(code, settings):
