@@ -4,7 +4,7 @@ import hashlib
 import json
 import os
 import platform
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import numba
@@ -27,9 +27,9 @@ class Cache:
         self._fresh = fresh
         self.read = 0  # runs that were there already
 
-    def recall(self, setting, window, timed):
-        """The Measured of an earlier run; None when there is none."""
-        path = self._path(setting, window, timed)
+    def recall(self, name):
+        """The Measured of an earlier run by its `name`; None when there is none."""
+        path = self.folder / f"{name}.npz"
         if self._fresh or not path.is_file():
             return None
         try:
@@ -41,18 +41,19 @@ class Cache:
         self.read += 1
         return measured
 
-    def keep(self, setting, window, timed, measured):
+    def keep(self, name, measured):
         """Write a run, in one move."""
-        path = self._path(setting, window, timed)
+        path = self.folder / f"{name}.npz"
         fields = {name: value for name, value in asdict(measured).items() if name not in ARRAYS}
         part = path.with_suffix(f".{os.getpid()}.part")
         with open(part, "wb") as file:
             np.savez(file, fields=json.dumps(fields), **{name: getattr(measured, name) for name in ARRAYS})
         os.replace(part, path)
 
-    def _path(self, setting, window, timed):
-        name = _digest(json.dumps(asdict(setting)).encode(), window.times.tobytes(), window.poses.tobytes(), window.twists.tobytes(), bytes([timed]))
-        return self.folder / f"{name}.npz"
+    @staticmethod
+    def name(setting, window, timed):
+        """What a run is kept under."""
+        return _digest(json.dumps(asdict(setting)).encode(), window.times.tobytes(), window.poses.tobytes(), window.twists.tobytes(), bytes([timed]))
 
 
 def machine_text():
@@ -79,7 +80,8 @@ def _digest(*parts):
 
 
 def _scene_bytes(scene):
-    return json.dumps([scene.text, *([name, text] for name, text in scene.files)]).encode()
+    """Of what was read, and of what it is now: a Scene may have been changed since."""
+    return json.dumps([scene.text, *([name, text] for name, text in scene.files), repr(replace(scene, path="", text="", files=()))]).encode()
 
 
 def _motion_bytes(motion):

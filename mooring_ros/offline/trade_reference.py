@@ -5,7 +5,7 @@ segment beside it, and comes to it with the first.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from .trade_setting import Setting, step_of, steps_in
 WELL_BELOW = 0.1  # of the error asked for: where refining ends
 FIRST = 2  # of the file's segments: the reference is no coarser
 MOST_ORDER, LEAST_ORDER = 2.0, 1.0  # what an observed order counts as, at most and at least
+PATIENCE = 2  # refinements in a row that only make it worse
 PARTS = ("mean", "dynamic", "peak")
 
 
@@ -35,7 +36,7 @@ class Level:
 @dataclass(frozen=True)
 class Reference:
     """tension (k, lines) N; error (3,) per cent: what is left in mean, dynamic and peak; orders: observed in space and time, None where there
-    are not three runs to observe it in; levels: the runs; converged: error below `target`; why: in words, why refining ended."""
+    are not three runs to observe it in; refine: of the file's segments; steps: in a sample; levels: all runs; converged: error below `target`; why: in words, why refining ended."""
 
     tension: np.ndarray
     error: np.ndarray
@@ -43,17 +44,18 @@ class Reference:
     time_error: np.ndarray
     space_order: np.ndarray
     time_order: np.ndarray
-    levels: list
     refine: int
-    target: float
-    converged: bool
-    why: str
+    steps: int
+    setting: Setting
+    levels: list = ()
+    target: float = math.nan
+    converged: bool = False
+    why: str = ""
 
     def as_dict(self):
         """For --json."""
-        last = self.levels[-1]
         return {
-            "segments_factor": self.refine, "setting": last.setting.arguments(), "steps_per_sample": last.steps,
+            "segments_factor": self.refine, "setting": self.setting.arguments(), "steps_per_sample": self.steps,
             "error": dict(zip(PARTS, self.error.tolist())), "error_space": dict(zip(PARTS, self.space_error.tolist())),
             "error_time": dict(zip(PARTS, self.time_error.tolist())), "order_space": dict(zip(PARTS, self.space_order)),
             "order_time": dict(zip(PARTS, self.time_order)), "target": self.target, "converged": self.converged, "why": self.why,
@@ -72,7 +74,7 @@ class Refinement:
     def __init__(self, scene, window, run):
         """run(setting) -> Measured, untimed; raises where it is refused."""
         self._scene, self._window, self._run = scene, window, run
-        self._done, self._order = {}, []
+        self._done = {}
 
     def level(self, k, m):
         """The run on 2^k times the file's segments with 2^m times the steps of the default there."""
@@ -82,7 +84,6 @@ class Refinement:
             steps = steps_in(self._window.interval, limit) * 2**m
             setting = Setting("dynamic", "explicit", None if m == 0 else step_of(self._window.interval, steps), refine=refine)
             self._done[k, m] = steps, setting, self._run(setting)
-            self._order.append((k, m))
         return self._done[k, m]
 
     def tension(self, k, m):
@@ -106,30 +107,32 @@ class Refinement:
         return errors_between(self.tension(*coarse), self.tension(*fine))
 
     def levels(self):
-        """All runs as Levels, in the order of their making."""
+        """All runs as Levels, coarsest mesh first."""
         made = []
-        for k, m in self._order:
+        for k, m in sorted(self._done):
             steps, setting, measured = self._done[k, m]
             made.append(Level(2**k, steps, setting, measured.cost, self.difference((k - 1, m), (k, m)), self.difference((k, m - 1), (k, m))))
         return made
 
 
 def converged_reference(scene, window, run, target, time_left):
-    """Reference whose own error is below `target` (per cent), or as far as `time_left` () s of CPU time, asked again and again, allow."""
+    """Reference whose own error is below `target` (per cent), or the best that `time_left` () s of CPU time, asked again and again, allow."""
     runs = Refinement(scene, window, run)
     k, m = FIRST.bit_length() - 1, 0
     for place in ((0, 0), (0, 1), (0, 2), (k, m)):
         runs.level(*place)
+    best, worse = None, 0
     while True:
-        space, space_order = _left(runs, [(j, m) for j in range(k + 1)])
-        steps, time_order = _left(runs, [(0, j) for j in range(m + 3)])
-        # measured on the file's mesh, where it costs little, with other steps than the reference's
-        steps *= (runs.level(0, m + 2)[0] / runs.level(k, m)[0]) ** np.array([_counted(order) for order in time_order])
-        error = space + steps
-        if error.max() <= target:
+        found = _estimate(runs, k, m)
+        worse = 0 if best is None or found.error.max() < best.error.max() else worse + 1
+        best = found if worse == 0 else best
+        if best.error.max() <= target:
             why = "its own error is below a tenth of what is asked for"
             break
-        finer = (k + 1, m) if space.max() >= steps.max() else (k, m + 1)
+        if worse == PATIENCE:
+            why = f"finer runs (to {2**k} times the file's segments) differ more, not less"
+            break
+        finer = (k + 1, m) if found.space_error.max() >= found.time_error.max() else (k, m + 1)
         expected = runs.cost(*finer) + (runs.cost(0, finer[1] + 2) if finer[1] > m else 0.0)
         if expected > time_left():
             why = f"the next refinement would take {expected:.3g} s of CPU time, of {max(time_left(), 0.0):.3g} s that are left for it"
@@ -137,9 +140,17 @@ def converged_reference(scene, window, run, target, time_left):
         k, m = finer
         for place in ((0, m + 2), *((j, m) for j in range(max(k - 2, 0), k + 1))):
             runs.level(*place)
-    return Reference(
-        runs.tension(k, m), error, space, steps, space_order, time_order, _last_at_end(runs.levels(), 2**k), 2**k, target, bool(error.max() <= target), why
-    )
+    return replace(best, levels=runs.levels(), target=target, converged=bool(best.error.max() <= target), why=why)
+
+
+def _estimate(runs, k, m):
+    """The run (k, m) as a Reference, with what its neighbours say of its error."""
+    space, space_order = _left(runs, [(j, m) for j in range(k + 1)])
+    steps, time_order = _left(runs, [(0, j) for j in range(m + 3)])
+    # measured on the file's mesh, where it costs little, with other steps than the reference's
+    steps *= (runs.level(0, m + 2)[0] / runs.level(k, m)[0]) ** np.array([_counted(order) for order in time_order])
+    count, setting, _ = runs.level(k, m)
+    return Reference(runs.tension(k, m), space + steps, space, steps, space_order, time_order, 2**k, count, setting)
 
 
 def _left(runs, places):
@@ -160,9 +171,3 @@ def _left(runs, places):
 
 def _counted(order):
     return LEAST_ORDER if order is None else min(max(order, LEAST_ORDER), MOST_ORDER)
-
-
-def _last_at_end(levels, refine):
-    """The levels, coarsest mesh first; the reference itself last."""
-    ordered = sorted(levels, key=lambda level: (level.refine, level.steps))
-    return [level for level in ordered if level.refine <= refine]

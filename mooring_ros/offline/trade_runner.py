@@ -48,21 +48,29 @@ class Runner:
     def __init__(self, scene, cache, bar):
         self.scene, self._cache, self._bar = scene, cache, bar
         self.window = None
-        self.spent, self.runs, self._warm = 0.0, 0, set()
+        self.spent, self._warm, self._done = 0.0, set(), {}
 
     def run(self, setting, limit, timed=True, window=None, what="settings"):
         """Measured of a setting; `limit`: s of CPU time for one pass."""
         window = window or self.window
-        found = self._cache.recall(setting, window, timed)
+        name = self._cache.name(setting, window, timed)
+        if name in self._done:
+            return self._done[name]
+        found = self._cache.recall(name)
         if found is None:
             kind = setting.fidelity, setting.solver
             self._bar.say(f"{what}, {setting.method}, {setting.mesh} segments, step {setting.step}" + (" (compiling first)" if kind not in self._warm else ""), self.spent)
             found = measure(self.scene, setting, window, limit, timed, self._bar.tick)
             self._warm.add(kind)
-            self._cache.keep(setting, window, timed, found)
+            self._cache.keep(name, found)
         self.spent += found.spent
-        self.runs += 1
+        self._done[name] = found
         return found
+
+    @property
+    def runs(self):
+        """How many there were."""
+        return len(self._done)
 
     def need(self, setting, limit=float("inf"), window=None, what="reference"):
         """As `run`, once, not timed; raises ComputationFailed where it is refused."""

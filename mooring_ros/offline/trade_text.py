@@ -55,10 +55,9 @@ def row(found, result):
 def reference_words(found):
     """How well the reference is known, and why one may believe it."""
     reference = found.reference
-    last = reference.levels[-1]
     parts = ", ".join(f"{part} {error:.2g} %" for part, error in zip(PARTS, reference.error))
     orders = [f"{where} {order[1]:.2g}" for where, order in (("mesh", reference.space_order), ("step", reference.time_order)) if order[1] is not None]
     return (
-        f"Reference: {reference.refine} times the file's segments, {last.steps} steps in a sample; known by the differences of {len(reference.levels)} runs to"
+        f"Reference: {reference.refine} times the file's segments, {reference.steps} steps in a sample; known by the differences of {len(reference.levels)} runs to"
         f" {parts}{' (observed orders: ' + ', '.join(orders) + ')' if orders else ''}; {reference.why}"
     )
