@@ -7,10 +7,9 @@ kernel is called through its address: what it does, and its bits, are those of a
 from typing import NamedTuple
 
 import numpy as np
-from llvmlite import ir
 from numba.core import types
-from numba.core.extending import intrinsic
 
+from .address import address_of, caller, tuple_at
 from .cache import kernel, stage
 from .explicit import DONE, run
 from .model import Model, Scratch, State
@@ -29,46 +28,16 @@ class Member(NamedTuple):
     readings: Readings  # of one row
 
 
-def _at(cls):
-    """Intrinsic: the packed tuple of the class `cls` at an address."""
-
-    @intrinsic
-    def there(context, address):
-        return Fields(cls)(types.int64), lambda codegen, builder, signature, args: args[0]
-
-    return there
-
-
-_member_at, _scratch_at = _at(Member), _at(Scratch)
-_RUN_TYPES = (
-    Fields(Model), Fields(State), Fields(Scratch), *(types.Array(types.float64, ndim, "C") for ndim in (2, 1, 2, 2, 1)), Fields(Readings)
-)  # fmt: skip
-_RUN_RESULT = types.UniTuple(types.int64, 2)
-
-
-@intrinsic
-def _run_at(context, address, model, state, scratch, table, times, poses, twists, report, readings):
-    """`explicit.run` called at its address: compiled once, whoever calls it."""
-
-    def call(codegen, builder, signature, args):
-        convention = codegen.call_conv
-        function = builder.inttoptr(args[0], ir.PointerType(convention.get_function_type(_RUN_RESULT, _RUN_TYPES)))
-        _, result = convention.call_function(builder, function, _RUN_RESULT, _RUN_TYPES, args[1:])
-        return result
-
-    return _RUN_RESULT(types.int64, *_RUN_TYPES), call
+_FLOATS = tuple(types.Array(types.float64, ndim, "C") for ndim in (2, 1, 2, 2, 1))  # table, times, poses, twists, report
+_RUN = types.UniTuple(types.int64, 2), (Fields(Model), Fields(State), Fields(Scratch), *_FLOATS, Fields(Readings))  # result and arguments of explicit.run
+_member_at, _scratch_at, _run_at = tuple_at(Member), tuple_at(Scratch), caller(*_RUN)
 
 
 def run_address(member, scratch):
     """Where the stepping kernel is in this process, compiled for what a Member and its Scratch look like."""
     for known in (member, scratch):
         known.address  # noqa: B018  (its layout must be known before anything is compiled)
-    compiled = run.dispatcher
-    compiled.compile(_RUN_TYPES)
-    made = compiled.overloads[_RUN_TYPES]
-    if made.fndesc.restype != _RUN_RESULT:
-        raise TypeError(f"explicit.run returns {made.fndesc.restype}; expected {_RUN_RESULT}")
-    return made.library.get_pointer_to_function(made.fndesc.llvm_func_name)
+    return address_of(run.dispatcher, *_RUN)
 
 
 @entry

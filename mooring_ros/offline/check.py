@@ -5,8 +5,9 @@ import math
 from .arguments import load_mooring
 from .console import ComputationFailed, print_json
 from .contents import contents, contents_text, g
-from .effects import effects
+from .effects import effects, with_shares
 from .measure import measured_cost
+from .shares import cost_shares
 
 
 def add_arguments(parser):
@@ -31,7 +32,7 @@ def inspect(path):
     scene = mooring.scene
     try:
         mooring.settle([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
-        switched = effects(scene, mooring)
+        switched, passes = with_shares(effects(scene, mooring), cost_shares(mooring))
         limit = mooring.step_limit
         cost = measured_cost(mooring)
     except MooringError as error:
@@ -40,6 +41,7 @@ def inspect(path):
         "scene": str(path),
         **contents(scene),
         "effects": switched,
+        "cost_shares": passes,
         "step_limit": {
             "dt": float(limit.dt),
             "limited_by": limit.limited_by,
@@ -52,13 +54,16 @@ def inspect(path):
 
 def _text(found):
     limit, cost = found["step_limit"], found["cost"]
-    switched = [["on" if effect["on"] else "off", effect["name"], effect["why"]] for effect in found["effects"]]
-    width = max(len(row[1]) for row in switched)
+    switched = [["on" if effect["on"] else "off", effect["name"], _share(effect), effect["why"]] for effect in found["effects"]]
+    beside = [(row["what"], _percent(row["share"])) for row in found["cost_shares"] if not row["effects"]]
+    width = max(len(name) for name in [row[1] for row in switched] + [what for what, _ in beside])
     text = [
         *contents_text(found),
         "",
-        "Effects",
-        *(f"  {state:3}  {name.ljust(width)}  {why}" for state, name, why in switched),
+        "Effects, with their share of the CPU time of steps, measured just now on this machine",
+        *(f"  {state:3}  {name.ljust(width)}  {share:>6}  {why}" for state, name, share, why in switched),
+        *(f"       {what.ljust(width)}  {share:>6}" for what, share in beside),
+        "  (″: in the same pass as an effect above)",
         "",
         f"Largest stable step: {g(limit['dt'])} s, limited by {limit['limited_by']}",
         "Limits of a plain leapfrog step",
@@ -70,3 +75,14 @@ def _text(found):
     if found["warnings"]:
         text += ["", "Warnings", *(f"  {warning}" for warning in found["warnings"])]
     return "\n".join(text)
+
+
+def _share(effect):
+    """An effect's share; a mark when it is in the share of an earlier one."""
+    if effect["share"] is None:
+        return ""
+    return _percent(effect["share"]) if effect["share_with"][0] == effect["name"] else "″"
+
+
+def _percent(share):
+    return f"{100.0 * share:.1f} %"

@@ -49,6 +49,20 @@ def effects(scene, mooring):
     ]
 
 
+def with_shares(switched, passes):
+    """(effects, passes): each effect with "share" (0..1, None when off) and "share_with", all effects of its pass; what is off is in no pass."""
+    on = [effect["name"] for effect in switched if effect["on"]]
+    passes = [{**row, "effects": [name for name in row["effects"] if name in on], "what": row["what"] or ", ".join(row["effects"])} for row in passes]
+    of = {name: row for row in passes for name in row["effects"]}
+    nothing = {"share": 0.0, "effects": []}  # what only changes numbers that are there anyway
+    shared = [of.get(effect["name"], nothing) if effect["on"] else None for effect in switched]
+    found = [
+        {**effect, "share": row and row["share"], "share_with": (row["effects"] or [effect["name"]]) if row else []}
+        for effect, row in zip(switched, shared)
+    ]
+    return found, passes
+
+
 def _effect(name, on, why):
     return {"name": name, "on": bool(on), "why": why}
 
