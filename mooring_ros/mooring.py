@@ -41,6 +41,8 @@ SWING_TIME, LONGER = 20.0, 1.2  # s, and by how much each swing is longer than t
 MOST_EFFORT = 5e8  # evaluations times nodes of all swings: some ten seconds
 PARTS = (1, 4, 16)  # of a platform's move from sample to sample, in which the statics follow it
 STEP_EFFORT = 2e7  # evaluations times nodes of the swings in one step
+TOPPLES = 6  # equilibria that topple, one after the other, and swings to find the next
+TOPPLES_STILL = "the equilibrium that the statics found topples when it is touched: give bodies and rods places nearer to where they come to rest"
 AT_REST = 1e-5  # of the longest line: moves of a whole swing
 
 
@@ -452,6 +454,8 @@ class Mooring:
                 break
         if not best.converged and best.residual <= self._statics.acceptable:
             best = replace(best, tolerance=self._statics.acceptable, converged=True)
+        if best.converged:
+            best, best_state = self._standing(best, best_state, swings)
         if best.converged and remembers:
             state = _copy(best_state)
             laid = self._statics.pull_tight(state, self._scratch)
@@ -470,6 +474,27 @@ class Mooring:
             f"the statics did not converge in {best.iterations} iterations: "
             f"{best.residual:.3g} N out of balance, {best.tolerance:.3g} N asked for"
         )
+
+    def _standing(self, result, state, swings):
+        """An equilibrium that stands, from one that may topple: pushed, it swings until Newton's method finds another. Warns where none is found."""
+        found, trial = (result, state), state
+        for swing in range(min(TOPPLES, swings)):
+            step = self._statics.falls(trial, self._scratch)
+            if step is None:
+                return found[0], trial
+            trial = _copy(trial)
+            self._statics.tip(trial, step)
+            for _ in range(TOPPLES):
+                self._swing(trial, SWING_TIME * LONGER**swing)
+                next_result = self._statics.solve(trial, self._scratch)
+                if next_result.residual <= self._statics.acceptable:
+                    break
+            else:
+                break
+            found = replace(next_result, iterations=found[0].iterations + next_result.iterations, converged=True), trial
+        if TOPPLES_STILL not in self.warnings:
+            self.warnings += (TOPPLES_STILL,)
+        return found
 
     def _equilibrium(self, pose, time):
         """State and StaticResult at the pose of a step to `time` (s)."""

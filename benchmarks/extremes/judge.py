@@ -50,13 +50,14 @@ def claim(what, got, want, allowed, scale=None):
     return Claim(what, float(got), float(want), float(allowed), max(float(abs(want) if scale is None else scale), 1e-300))
 
 
-def same_history(track, truth, allowed, peak=None, floor=0.0):
-    """Claims that all tensions follow those of another run: rms over their deviation (or `floor` N), and the largest with `peak`."""
+def same_history(track, truth, allowed, peak=None, floor=0.0, level=1e-3):
+    """Claims that all tensions follow those of another run: rms over their deviation (at least `level` of the largest, and `floor` N), and the
+    largest with `peak`."""
     claims = []
     for line in range(track.fairlead.shape[1]):
         theirs = truth.fairlead[:, line]
         mine = np.interp(truth.times, track.times, track.fairlead[:, line])
-        scale = max(theirs.std(), 1e-3 * theirs.max(), floor)
+        scale = max(theirs.std(), level * theirs.max(), floor)
         rms = np.sqrt(np.mean((mine - theirs) ** 2))
         claims.append(claim(f"rms difference of line {line + 1} over its deviation", rms / scale, 0.0, allowed, 1.0))
         if peak is not None:

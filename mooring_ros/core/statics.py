@@ -22,6 +22,7 @@ from .model import LOOSE
 from .platform import rotate
 from .ropes import build_ropes, rope_statics, settle_creep
 from .tangent import balance, fill_tangent, predict_tension, stretch_linearly
+from .toppling import direction_of_fall
 from .waves import calm
 
 TOLERANCE, ACCEPTABLE = 1e-9, 1e-6  # of the heaviest line's weight: what is asked for, and what will do when nothing finds more
@@ -35,6 +36,7 @@ STIFFNESS_DAMPING = 1e-10  # carries slack parts where the stiffness is read
 SMALLEST_SHARE = 0.01  # of a step
 LONGEST_MOVE = 0.3  # of the longest line's length, in one step
 LARGEST_TURN = 0.5  # rad, of a part in one step
+TIPPED = 0.05  # m or rad: how far an equilibrium that topples is pushed
 STRAIN_SCALE = 10.0  # a strain of 10 % counts like a force of the line's weight
 
 
@@ -387,6 +389,21 @@ class StaticSolver:
         return share, residual
 
     # -- stiffness --------------------------------------------------------------------------------------------------------------------
+
+    def falls(self, state, scratch):
+        """Step (count,) of the unknowns, its largest entry 1 m or rad, along which an equilibrium without friction topples, or None where it stands."""
+        if not (self._freedom.parts or self._pattern.rows.size or self.model.ground.grid.x.size):
+            return None  # lines that only pull stand wherever they hang
+        state.settings[7] = 1.0
+        _evaluate_at_rest(self.model, state, scratch)
+        rope_statics(self.model.ropes, state.tension, self.model.stiffness, self._slack_strain)
+        stiffness = self._equations.matrix(state, *self._stiffness(state, 0.0))
+        state.settings[7] = 0.0
+        return direction_of_fall(stiffness, np.full(self._freedom.count, self.weight / max(self.lengths)))
+
+    def tip(self, state, step):
+        """Move everything by `step` (count,) times TIPPED."""
+        self._freedom.put(state, _configuration(state), step, TIPPED)
 
     def platform_stiffness(self, state, scratch):
         """(6, 6) minus the change of the wrench with the pose at an equilibrium in `state`; rotations about the world axes."""
