@@ -94,9 +94,8 @@ def of_cabledyn(case):
     reference = peer_search.cabledyn_reference(case, 2 if dear else 4, 400 if dear else 800)
     if reference.failure:
         return [], reference.failure
-    meshes = [m for m in peer_search.MESHES if m <= (1.0 if dear else 2.0)]
-    steps = [n for n in peer_search.STEPS_IN_A_PERIOD if n <= (200 if dear else 400)]
-    return _points("CableDyn", peer_search.cabledyn_settings(case, reference, measure, meshes, steps)), ""
+    meshes = [m for m in peer_search.MESHES if m <= 1.0 or not dear]
+    return _points("CableDyn", peer_search.cabledyn_settings(case, reference, measure, meshes)), ""
 
 
 def _points(code, settings):
