@@ -74,12 +74,20 @@ class Mooring:
     Raises SceneError for a bad scene, ValueError for bad arguments; MooringError when a computation cannot be completed.
     """
 
-    def __new__(cls, scene=None, fidelity="dynamic", *_, **__):
-        if cls is Mooring and is_by_line(fidelity):
+    def __new__(cls, scene=None, fidelity="dynamic", solver="auto", dt=None, segments=None, refine=1.0, **_):
+        if cls is not Mooring or scene is None:
+            return object.__new__(cls)
+        if is_by_line(fidelity):
             from .mixed import MixedMooring
 
             return object.__new__(MixedMooring)
-        return object.__new__(cls)
+        from .blocks import BlockMooring, is_large
+
+        scene = scene if isinstance(scene, Scene) else load_scene(Path(scene))
+        large = fidelity == "dynamic" and solver != "implicit" and is_large(scene, segments, refine)
+        made = object.__new__(BlockMooring if large else cls)
+        made.scene = scene
+        return made
 
     def __init__(self, scene, fidelity="dynamic", solver="auto", dt=None, segments=None, refine=1.0, spectral_radius=implicit.SPECTRAL_RADIUS):
         if fidelity not in FIDELITIES:
@@ -94,7 +102,6 @@ class Mooring:
             raise ValueError(f"refine is {refine!r}; expected a positive factor on the file's numbers of segments")
         if segments is not None and refine != 1.0:
             raise ValueError(f"segments is {segments!r} and refine is {refine!r}; expected one of the two")
-        self.scene = scene if isinstance(scene, Scene) else load_scene(Path(scene))
         self.fidelity = fidelity
         self.solver = "implicit" if solver == "implicit" else "explicit"
         self._implicit, self._spectral_radius = None, float(shaped(spectral_radius, (), "spectral_radius", "a number"))
@@ -275,6 +282,8 @@ class Mooring:
         other._state, other._scratch = _copy(self._state), new_scratch(self._model)
         other._readings = type(self._readings)(*(array.copy() for array in self._readings))
         other._statics = StaticSolver(self._wound, self._model)
+        if self._implicit:
+            other._implicit = implicit.ImplicitSolver(self._model, self.step_limit.dt, self._spectral_radius)
         other._report, other._time, other._pose, other._twist = (array.copy() for array in (self._report, self._time, self._pose, self._twist))
         return other
 

@@ -34,6 +34,7 @@ def cost_shares(mooring):
 
     The shares add up to 1. The mooring is left as it was. Raises MooringError.
     """
+    mooring = getattr(mooring, "_fullest", mooring)  # of one that is cut into several, one that is like the others
     saved = mooring.snapshot()
     try:
         whole, evaluations, steps = _of_a_run(mooring)  # s of CPU time, and numbers, for one simulated second

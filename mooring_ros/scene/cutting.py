@@ -9,9 +9,10 @@ from .description import BODY, FREE, Body, Line, Point, RodEnd, Scene
 def joints(scene: Scene) -> list[tuple[str, tuple[str, ...]]]:
     """(name, lines) of everything that joins lines so that they cannot be solved apart: free points, rods, free bodies, failures."""
     found: dict[str, list[str]] = {}
+    points, rods, bodies = ({part.id: part for part in parts} for parts in (scene.points, scene.rods, scene.bodies))
     for line in scene.lines:
         for end in (line.end_a, line.end_b):
-            joint = _joint(scene, end)
+            joint = _joint(points, rods, bodies, end)
             if joint and line.name not in found.setdefault(joint, []):
                 found[joint].append(line.name)
     names = {line.id: line.name for line in scene.lines}
@@ -20,10 +21,10 @@ def joints(scene: Scene) -> list[tuple[str, tuple[str, ...]]]:
     return [(joint, tuple(lines)) for joint, lines in found.items() if len(lines) > 1]
 
 
-def _joint(scene: Scene, end: int | RodEnd) -> str | None:
+def _joint(points: dict, rods: dict, bodies: dict, end: int | RodEnd) -> str | None:
     """Name of what moves with a line's end, other than the platform or the ground; None when there is nothing."""
-    part = _rod(scene, end.rod) if isinstance(end, RodEnd) else scene.point(end)
-    if part.kind == BODY and _body(scene, part.body).kind == FREE:
+    part = rods[end.rod] if isinstance(end, RodEnd) else points[end]
+    if part.kind == BODY and bodies[part.body].kind == FREE:
         return f"body{part.body}"
     return part.name if isinstance(end, RodEnd) or part.kind == FREE else None
 
@@ -40,8 +41,9 @@ def cut(scene: Scene, groups: Sequence[Set[str]]) -> list[Scene]:
 
 
 def _part(scene: Scene, lines: tuple[Line, ...], taken: set[object], first: bool) -> Scene:
+    ids = {line.id for line in lines}
     ends = {end for line in lines for end in (line.end_a, line.end_b)}
-    elsewhere = {end for line in scene.lines if line not in lines for end in (line.end_a, line.end_b)}
+    elsewhere = {end for line in scene.lines if line.id not in ids for end in (line.end_a, line.end_b)}
     used_rods, other_rods = ({end.rod for end in some if isinstance(end, RodEnd)} for some in (ends, elsewhere))
     free = {body.id for body in scene.bodies if body.kind == FREE}
     carriers = {part.body for part in (*scene.points, *scene.rods) if part.kind == BODY and _is_used(part, ends, used_rods)}
@@ -58,7 +60,6 @@ def _part(scene: Scene, lines: tuple[Line, ...], taken: set[object], first: bool
     carriers = {part.body for part in (*points, *rods) if part.kind == BODY}
     all_carriers = {part.body for part in (*scene.points, *scene.rods) if part.kind == BODY}
     bodies = [body for body in scene.bodies if body.id in carriers or first and body.id not in all_carriers]
-    ids = {line.id for line in lines}
     return replace(
         scene,
         lines=lines,
@@ -82,11 +83,3 @@ def _once(part: Point | Body, taken: set[object]) -> Point | Body:
     if isinstance(part, Point):
         return replace(part, mass=0.0, volume=0.0, drag_area=0.0)
     return replace(part, mass=0.0, inertia=(0.0,) * 3, volume=0.0, drag_area=(0.0,) * 6)
-
-
-def _rod(scene, id):
-    return next(rod for rod in scene.rods if rod.id == id)
-
-
-def _body(scene, id):
-    return next(body for body in scene.bodies if body.id == id)
