@@ -30,7 +30,7 @@ BENCHMARKS = {
 }
 MODULES = {"node_latency": "latency_table"}  # where it is not the name itself
 DOCS = Path(__file__).parent.parent / "docs"
-DOCUMENTS = (DOCS / "measurements.md", DOCS / "physics.md", DOCS / "trades.md")
+DOCUMENTS = (DOCS / "measurements.md", DOCS / "physics.md", DOCS / "trades.md", DOCS / "trade.md")
 
 
 def arguments(argv):

@@ -13,6 +13,7 @@ from .trade_errors import Errors, errors_between
 from .trade_setting import Setting, step_of, steps_in
 
 NEAR = 0.35  # of a run that corrects a prediction: distance in the logarithms of mesh and steps
+SHARED = 0.95  # of the least error along the steps: the mesh's, which all of them share
 LEAST_MESH_SHARE = 0.3  # of an error, where that of the step seems to be all of it
 
 
@@ -132,7 +133,10 @@ def _step_table(row):
         slope = -(math.log(max(apart[-1, 1], 1e-9)) - math.log(max(apart[0, 1], 1e-9))) / (counts[-1] - counts[0])
         order = min(max(slope, 1.0), 2.0)
     own = apart / (1.0 - np.exp(-order * (math.log(row[-1].steps) - counts)))[:, None]
-    return counts, np.log(np.maximum(own, 1e-9)), order
+    # the error that there is leaves no room for more: what is not the mesh's, which all of the row share
+    whole = np.array([result.errors.parts() for result in row])
+    room = np.sqrt(whole[:-1] ** 2 - (SHARED * whole.min(axis=0)) ** 2)
+    return counts, np.log(np.maximum(np.minimum(own, room), 1e-9)), order
 
 
 def _most(results, kind, rank):

@@ -1,6 +1,7 @@
 """Figures of the trade's report."""
 
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogFormatter, StrMethodFormatter
 
 from .plots import COLOURS, style_axis
 from .trade_reference import PARTS
@@ -35,7 +36,7 @@ def front_figure(found):
     axis.set(xscale="log", yscale="log", xlabel="CPU time for one simulated second (ms)", ylabel="largest error (%)")
     lowest = min(found.error(result).worst for result in shown)
     axis.set_ylim(bottom=0.5 * min(lowest, known) if known > 0.0 else 0.5 * lowest)
-    style_axis(axis)
+    _plain_numbers(axis)
     fig.legend(loc="outside right upper", frameon=False, fontsize=8)
     return fig
 
@@ -51,6 +52,14 @@ def reference_figure(reference):
             axis.plot(*zip(*own) if own else ([], []), "o-", color=COLOURS[index], markersize=4, linewidth=1.0, label=part)
     for axis, label in ((space, "segments, times the file's"), (steps, "steps in a sample")):
         axis.set(xscale="log", yscale="log", xlabel=label, ylabel="difference to the next coarser (%)")
-        style_axis(axis)
+        _plain_numbers(axis)
     space.legend(frameon=False, fontsize=8)
     return fig
+
+
+def _plain_numbers(axis):
+    style_axis(axis)
+    for own in (axis.xaxis, axis.yaxis):
+        own.set_major_formatter(StrMethodFormatter("{x:g}"))
+        own.set_minor_formatter(LogFormatter(labelOnlyBase=False, minor_thresholds=(1.5, 0.5)))
+    axis.tick_params(which="minor", labelsize=7)

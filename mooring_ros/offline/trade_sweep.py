@@ -15,6 +15,7 @@ WORST = 10.0  # per cent of error beyond which nothing coarser is tried, or five
 USELESS = 3.0  # times the cost of another method at no less error: not followed on other meshes
 ENOUGH = 0.2  # of the error: a finer step that changes less ends the row of steps
 STUCK = 0.8  # of the last change: a finer step that changes as much leads nowhere
+AS_GOOD = 1.15  # times the least error: worth nothing more
 DEEPEST = 6  # doublings of the steps
 SEARCH_MESH, SEARCH_STEP = 1.03, 1.2  # grid on which the goal is searched for
 WORTH = 0.04  # less gain than this is not run for
@@ -101,22 +102,30 @@ class Sweep:
         return getattr(result, self._goal.of).worst
 
     def _along_meshes(self, family):
-        """Finer until the error is small enough or the time is up, coarser until it is of no use."""
-        steps = (lambda factor: family.default_steps(factor)) if family.solver == "explicit" else (lambda factor: self._best_steps(family))
-        first = self._run(family, 1.0, steps(1.0))
+        """Finer until the error is small enough or the time is up, with shorter steps where finer meshes alone do not help; coarser until it is of no use."""
+        more = self._best_share(family)
+        first = self._run(family, 1.0, more * family.default_steps(1.0))
         before, last = None, first
         while last and (last.refused or self._error(last) > self._least):
+            if before and not last.refused and not before.refused and self._error(last) > STUCK * self._error(before):
+                if family.solver != "implicit":
+                    break
+                more *= 2
+                shorter = self._run(family, last.factor, more * family.default_steps(last.factor), 2.0 * last.cost)
+                if shorter is None or shorter.refused or self._error(shorter) > STUCK * self._error(last):
+                    break
+                before, last = None, shorter
             factor = self._meshes.nearest(last.factor * LADDER)
-            if factor > self._reference.refine / 2.0 or (before and not last.refused and not before.refused and self._error(last) > 0.9 * self._error(before)):
+            if factor > self._reference.refine / 2.0:
                 break
             growth = last.cost / before.cost if before and before.cost > 0.0 else 2.0
-            before, last = last, self._run(family, factor, steps(factor), last.cost * max(growth, 1.0) if last.refused is None else None)
-        last = first
+            before, last = last, self._run(family, factor, more * family.default_steps(factor), last.cost * max(growth, 1.0) if last.refused is None else None)
+        last, more = first, self._best_share(family)
         while last and last.refused is None and self._error(last) < max(WORST, 5.0 * (self._goal.error or 0.0)):
             factor = self._meshes.nearest(last.factor / LADDER)
             if factor >= last.factor or factor * self._meshes.mean < FEWEST:
                 break
-            last = self._run(family, factor, steps(factor), last.cost)
+            last = self._run(family, factor, more * family.default_steps(factor), last.cost)
 
     def _along_steps(self, family, factor):
         """Shorter steps, half by half, until they change nothing any more, or as much as the step before."""
@@ -138,16 +147,13 @@ class Sweep:
         usable = family.usable()
         return 1.0 if not usable or any(result.factor == 1.0 for result in usable) else usable[0].factor
 
-    def _best_steps(self, family):
-        """Steps in a sample with which the step's error is no more than a third of the whole, at the file's mesh."""
+    def _best_share(self, family):
+        """Steps over the default's with which the file's mesh is hardly worse than with the best there, the fewest."""
         row = sorted((result for result in family.usable() if result.factor == 1.0), key=lambda result: result.steps)
         if not row:
-            return 4
-        finest = row[-1]
-        for result in row[:-1]:
-            if errors_between(result.tension, finest.tension).worst < max(self._error(finest) / 2.0, self._least / 2.0):
-                return result.steps
-        return finest.steps
+            return 1
+        best = min(self._error(result) for result in row)
+        return next(result.steps for result in row if self._error(result) <= AS_GOOD * best) // family.default_steps(1.0)
 
     def _beaten(self, family):
         """Whether everything of a family costs much more than something else that is no less accurate."""
