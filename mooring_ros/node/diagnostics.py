@@ -1,4 +1,4 @@
-"""The node's state as a DiagnosticArray: input, core, timing, recording; counts and causes."""
+"""The node's state as a DiagnosticArray: input, core, timing, accuracy, recording; counts and causes."""
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
 from mooring_ros.motion.convention_check import MISSING, UNDECIDED
@@ -18,11 +18,11 @@ class Diagnostics:
         self._grown = {}
         self._session = None
 
-    def array(self, now, stamp, lifecycle, session=None, problem="", timing=None, recorder=None):
+    def array(self, now, stamp, lifecycle, session=None, problem="", timing=None, recorder=None, accuracy=None):
         """The DiagnosticArray of this moment.
 
         lifecycle: label of the node's state. session: of the activation, or None. problem: why the node could not be configured, or "".
-        timing: name -> value, with "missed" counted; recorder: the RecordingWriter, or None.
+        timing: name -> value, with "missed" counted; recorder: the RecordingWriter, or None; accuracy: (words, name -> value), or None.
         """
         if session is not self._session:
             self._session = session
@@ -30,7 +30,7 @@ class Diagnostics:
         message = DiagnosticArray()
         message.header.stamp = stamp
         message.status = [self._input(now, session), self._core(now, session, lifecycle, problem), self._timing(now, timing or {}),
-                          self._recording(recorder)]
+                          self._accuracy(accuracy), self._recording(recorder)]
         return message
 
     def _input(self, now, session):
@@ -85,6 +85,10 @@ class Diagnostics:
         missed = timing.get("missed", 0)
         late = self._grew("missed", missed, now)
         return self._status("timing", WARN if late else OK, f"{missed} cycles missed" if missed else "in time", timing)
+
+    def _accuracy(self, accuracy):
+        words, values = accuracy or ("not active", {})
+        return self._status("accuracy", WARN if words.startswith("no estimate:") else OK, words, values)
 
     def _recording(self, recorder):
         if recorder is None:

@@ -15,12 +15,13 @@ from std_srvs.srv import Trigger
 from mooring_ros.mooring import Mooring, MooringError
 from mooring_ros.motion import Adapter, ConventionCheck, Gate, Limits
 from mooring_ros.node import parameters
+from mooring_ros.node.accuracy import Companion, report
 from mooring_ros.node.diagnostics import Diagnostics
 from mooring_ros.node.inputs import Inputs
 from mooring_ros.node.output import Output
 from mooring_ros.node.outputs import Outputs
 from mooring_ros.node.session import RUNNING, Session
-from mooring_ros.node.timing import Durations, FixedRate
+from mooring_ros.node.timing import Durations, FixedRate, Pace
 from mooring_ros.node.winch import Winch
 from mooring_ros.recording.attached import AttachedScene
 from mooring_ros.recording.errors import RecordingError
@@ -51,11 +52,12 @@ class MooringNode(LifecycleNode):
     def __init__(self, **keywords):
         super().__init__("mooring", **keywords)
         self._session = self._inputs = self._winch = self._outputs = self._recorder = self._mooring = self._adapter = None
+        self._companion, self._settings = None, {}
         self._own_services = []
         self._timer = self._rate = None
         self._problem = ""
         self._said, self._refused = None, 0
-        self._durations = Durations()
+        self._durations, self._pace = Durations(), Pace()
         parameters.declare(self, lambda: self._mooring is not None)
         self.add_post_set_parameters_callback(lambda _: self._apply_live_parameters())
         self._steady = Clock(clock_type=ClockType.STEADY_TIME)
@@ -87,6 +89,9 @@ class MooringNode(LifecycleNode):
         gate = Gate(self._adapter, Limits(), values["world_frame"], values["platform_frame"])
         self._session = Session(self._mooring, gate, Output(), check)
         self._said, self._refused = self._session.state, 0
+        self._pace = Pace()
+        if values["accuracy.enabled"]:
+            self._companion = Companion(self._mooring, self._settings, values["accuracy.share"], values["accuracy.window"])
         self._apply_live_parameters()
         if values["timing.mode"] == "timer":
             self._rate = FixedRate(values["timing.rate"])
@@ -140,7 +145,7 @@ class MooringNode(LifecycleNode):
         mooring = Mooring(scene, **settings)
         for warning in mooring.warnings:
             self.get_logger().warning(warning)
-        self._mooring, self._adapter = mooring, adapter
+        self._mooring, self._adapter, self._settings = mooring, adapter, settings
         self._recorder = self._open_recording(values, scene)
         self._outputs = Outputs(self, mooring, adapter, self._recorder, values["visual_rate"])
         self._make_services(mooring.line_names)
@@ -183,6 +188,9 @@ class MooringNode(LifecycleNode):
         if self._session is not None:
             gc.enable()
             gc.unfreeze()
+        if self._companion is not None:
+            self._companion.close()
+            self._companion = None
         self._inputs = self._winch = self._timer = self._rate = self._session = None
 
     def _take_down(self):
@@ -244,11 +252,16 @@ class MooringNode(LifecycleNode):
         gate, outputs = self._session.gate, self._outputs
         outputs.use_frames(gate.frame, gate.child_frame)
         answered = outputs.answer(stamp, self._session)
-        self._durations.add(time.perf_counter_ns() - begin)
+        took = time.perf_counter_ns() - begin
+        self._durations.add(took)
+        self._pace.add(self._mooring.time, took, self._mooring.last_step)
         outputs.follow(stamp, answered)
 
     def _after(self):
-        self._outputs.record_actions(self._session.actions())
+        actions = self._session.actions()
+        self._outputs.record_actions(actions)
+        if self._companion is not None:
+            self._companion.note(actions)
         self._session.review()
         self._say_state()
 
@@ -299,8 +312,16 @@ class MooringNode(LifecycleNode):
 
     def publish_diagnostics(self, lifecycle):
         """Publish the state now. lifecycle: label of the node's state."""
+        now = time.monotonic()
         self._diagnostics_publisher.publish(self._diagnostics.array(
-            time.monotonic(), self.get_clock().now().to_msg(), lifecycle, self._session, self._problem, self._timing_values(), self._recorder))
+            now, self.get_clock().now().to_msg(), lifecycle, self._session, self._problem, self._timing_values(), self._recorder, self._accuracy(now)))
+
+    def _accuracy(self, now):
+        if self._session is None or self._session.wrenches is None:
+            return None
+        if self._companion is not None:
+            self._companion.poll(now)
+        return report(self._companion, self._pace, self._mooring, now)
 
     def _timing_values(self):
         values = {"mode": "input" if self._rate is None else "timer"}

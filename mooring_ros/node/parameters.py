@@ -65,6 +65,10 @@ TABLE = (
     Entry("limits.gap", 60.0, "Longest time between two samples of one motion (s, full scale). 0: no limit."),
     Entry("ramp_time", 0.0, "Cosine ramp of the wrench after a start or a settle (s). 0: none.", high=1e6),
     Entry("visual_rate", 10.0, "Rate of ~/nodes and ~/markers in the time of the input (Hz). 0: never.", high=1000.0),
+    Entry("accuracy.enabled", True, "Estimate the accuracy while running, in a process of its own that stands back for all others.", fixed=True),
+    Entry("accuracy.share", 0.05, "Share of one processor that it may take over the long run.", fixed=True, low=1e-3, high=1.0),
+    Entry("accuracy.window", 30.0, "How much motion an estimate is made from (s of the core's time); the first third is run-in.", fixed=True, low=1.0,
+          high=3600.0),
     Entry("recording.enabled", False, "Record inputs, outputs, steps, parameters and scene to MCAP.", fixed=True),
     Entry("recording.path", "", "Where to record: NAME.mcap, or a folder name. Empty: mooring_DATE-TIME.mcap in the working directory.", fixed=True),
 )

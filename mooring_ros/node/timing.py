@@ -81,3 +81,29 @@ class Durations:
             return None
         ordered = sorted(self._values)
         return tuple(ordered[min(int(share * len(ordered)), len(ordered) - 1)] * 1e-6 for share in (0.5, 0.99, 1.0))
+
+
+class Pace:
+    """How much of the core's time goes by for the time that its answers take, and the slowest of them."""
+
+    def __init__(self, keep=1000):
+        self._answers = deque(maxlen=keep)
+        self.worst = None       # (ns, core time in s, evaluations, parts taken again) of the slowest step
+
+    def add(self, core_time, duration, last_step):
+        """An answer at core_time (s) took `duration` (ns); last_step: of the mooring."""
+        if not self._answers or core_time <= self._answers[-1][0]:
+            self._answers.clear()       # a settle: its time is none of a step
+            self._answers.append((core_time, 0))
+            return
+        self._answers.append((core_time, duration))
+        if self.worst is None or duration > self.worst[0]:
+            self.worst = duration, core_time, last_step["evaluations"], last_step["retries"]
+
+    @property
+    def real_time_factor(self):
+        """Over the last answers; None before there are two."""
+        if len(self._answers) < 2:
+            return None
+        spent = sum(duration for _, duration in self._answers) - self._answers[0][1]
+        return 1e9 * (self._answers[-1][0] - self._answers[0][0]) / spent if spent else None

@@ -46,6 +46,11 @@ def add_arguments(parser):
         "ones (default: at the recorded samples)",
     )
     parser.add_argument("--topic", metavar="NAME", help="which topic of an MCAP file is the motion (POSE,TWIST for a pair)")
+    parser.add_argument(
+        "--accuracy",
+        action="store_true",
+        help="estimate the error of these settings around the highest tension, by solving up to 60 s again on a finer mesh with half the step",
+    )
     parser.add_argument("--json", action="store_true", help="one JSON object on standard output, nothing else")
 
 
@@ -62,9 +67,12 @@ def run(args):
         complain(remark)
     scene_is_recorded = _compare_scenes(args.scene, mooring.scene, motion)
 
+    from .replay_accuracy import Watched
     from .replay_work import replay
 
-    done = replay(args, mooring, motion, settings)
+    watched = Watched() if args.accuracy else None
+    done = replay(args, mooring, motion, settings, watched)
+    accuracy = watched.estimate(mooring.scene, {name: settings[name] for name in MODEL if settings[name]}) if watched else None
     found = {
         "output": args.output,
         "csv": args.csv,
@@ -76,6 +84,7 @@ def run(args):
         "settings": {name: settings[name] or None for name in MODEL},
         "identical": {"same": done.identical.same, "total": done.identical.total} if done.identical else None,
         "scene_is_recorded": scene_is_recorded,
+        "accuracy": accuracy and accuracy.as_dict(),
     }
     print_json(found) if args.json else print(_text(found))
     return 0
@@ -132,4 +141,15 @@ def _text(found):
         text.append(f"{found['csv']}: the same as a table")
     if found["identical"]:
         text.append(f"identical: {found['identical']['same']} of {found['identical']['total']} recorded tension messages came out again, bit for bit")
+    if found["accuracy"]:
+        text.append(_accuracy_text(found["accuracy"]))
     return "\n".join(text)
+
+
+def _accuracy_text(found):
+    if found["why"]:
+        return f"accuracy: no estimate: {found['why']}"
+    return (
+        f"accuracy: tensions within {found['mean']:.2g} % in the mean, {found['dynamic']:.2g} % dynamic (rms over standard deviation), {found['peak']:.2g} % at the "
+        f"peak, worst {found['line']}, estimated from {found['begin']:.6g} to {found['end']:.6g} s by comparing {found['compared']}"
+    )

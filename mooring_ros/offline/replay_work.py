@@ -34,10 +34,10 @@ class Replayed:
     identical: Identical | None
 
 
-def replay(args, mooring, motion, settings):
+def replay(args, mooring, motion, settings, watched=None):
     """Run the motion through the mooring and write the outputs that args name.
 
-    settings: the node's parameters that hold. Returns Replayed. Whatever ends it, the outputs are closed and readable.
+    settings: the node's parameters that hold; watched: a replay_accuracy.Watched that is told what is done, or None. Returns Replayed. Whatever ends it, the outputs are closed and readable.
     Raises ComputationFailed, UsageError, KeyboardInterrupt.
     """
     adapter = Adapter(**{name: settings[name] for name in ("twist_frame", "convention", "wrench_frame", "scale", "density_ratio")})
@@ -57,6 +57,8 @@ def replay(args, mooring, motion, settings):
         try:
             for done in steps:
                 outputs.write_inputs(inputs, done)
+                if watched is not None:
+                    watched.note(done, mooring)
                 if done.kind in schedule.MOVES:
                     answer = _answer(mooring, composed, adapter, done)
                     outputs.write(answer, mooring, composed)

@@ -202,3 +202,14 @@ def test_fidelities_line_by_line_are_replayed_and_recorded(scene, motion, moorin
     assert found["identical"] == {"same": 61, "total": 61} and found["settings"]["fidelity"] == "line1=quasi_static,default=linear"
     refused = mooring("replay", scene, motion, "-o", tmp_path / "three.mcap", "--fidelity", "line9=linear")
     assert refused.status == 2 and "line9" in refused.err and "expected line1, line2" in refused.err
+
+
+def test_accuracy_is_estimated_around_the_highest_tension(scene, motion, mooring, tmp_path):
+    found = mooring("replay", scene, motion, "-o", tmp_path / "one.mcap", "--csv", tmp_path / "one.csv", "--accuracy", "--json")
+    accuracy = found.json()["accuracy"]
+    assert found.status == 0 and not accuracy["why"] and 0.0 < accuracy["mean"] < 10.0 and accuracy["line"] in ("line1", "line2")
+    assert accuracy["begin"] == pytest.approx(2.0) and accuracy["end"] == pytest.approx(6.0)  # all of 6 s but the first third
+    plain = mooring("replay", scene, motion, "-o", tmp_path / "two.mcap", "--csv", tmp_path / "two.csv", "--json")
+    assert plain.json()["accuracy"] is None and (tmp_path / "one.csv").read_bytes() == (tmp_path / "two.csv").read_bytes()
+    again = mooring("replay", scene, tmp_path / "one.mcap", "-o", tmp_path / "three.mcap", "--accuracy")
+    assert f"within {accuracy['mean']:.2g} % in the mean" in again.out and "twice the segments" in again.out
