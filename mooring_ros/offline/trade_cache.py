@@ -27,10 +27,10 @@ class Cache:
         self._fresh = fresh
         self.read = 0  # runs that were there already
 
-    def recall(self, name):
-        """The Measured of an earlier run by its `name`; None when there is none."""
+    def recall(self, name, again=False):
+        """The Measured of an earlier run by its `name`, None when there is none; again: of a run of this trade."""
         path = self.folder / f"{name}.npz"
-        if self._fresh or not path.is_file():
+        if (self._fresh and not again) or not path.is_file():
             return None
         try:
             with np.load(path, allow_pickle=False) as stored:
@@ -38,7 +38,7 @@ class Cache:
                 measured = Measured(**{name: stored[name] for name in ARRAYS}, **fields)
         except (OSError, ValueError, KeyError, TypeError):  # cut off, or of another version
             return None
-        self.read += 1
+        self.read += not again
         return measured
 
     def keep(self, name, measured):

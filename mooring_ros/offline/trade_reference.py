@@ -11,6 +11,7 @@ import numpy as np
 
 from mooring_ros.mooring import Mooring
 
+from .console import ComputationFailed
 from .trade_errors import Errors, errors_between
 from .trade_setting import Setting, step_of, steps_in
 
@@ -72,7 +73,7 @@ class Refinement:
     """Runs of the reference by (doublings of the mesh, doublings of the steps)."""
 
     def __init__(self, scene, window, run):
-        """run(setting) -> Measured, untimed; raises where it is refused."""
+        """run(setting) -> Measured, untimed; raises ComputationFailed where it is refused."""
         self._scene, self._window, self._run = scene, window, run
         self._done = {}
 
@@ -138,8 +139,12 @@ def converged_reference(scene, window, run, target, time_left):
             why = f"the next refinement would take {expected:.3g} s of CPU time, of {max(time_left(), 0.0):.3g} s that are left for it"
             break
         k, m = finer
-        for place in ((0, m + 2), *((j, m) for j in range(max(k - 2, 0), k + 1))):
-            runs.level(*place)
+        try:
+            for place in ((0, m + 2), *((j, m) for j in range(max(k - 2, 0), k + 1))):
+                runs.level(*place)
+        except ComputationFailed as failure:
+            why = str(failure)
+            break
     return replace(best, levels=runs.levels(), target=target, converged=bool(best.error.max() <= target), why=why)
 
 

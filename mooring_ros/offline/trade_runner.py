@@ -48,15 +48,15 @@ class Runner:
     def __init__(self, scene, cache, bar):
         self.scene, self._cache, self._bar = scene, cache, bar
         self.window = None
-        self.spent, self._warm, self._done = 0.0, set(), {}
+        self.spent, self._warm, self._done = 0.0, set(), set()
 
     def run(self, setting, limit, timed=True, window=None, what="settings"):
         """Measured of a setting; `limit`: s of CPU time for one pass."""
         window = window or self.window
         name = self._cache.name(setting, window, timed)
-        if name in self._done:
-            return self._done[name]
-        found = self._cache.recall(name)
+        found = self._cache.recall(name, again=name in self._done)
+        if found is not None and name in self._done:
+            return found
         if found is None:
             kind = setting.fidelity, setting.solver
             self._bar.say(f"{what}, {setting.method}, {setting.mesh} segments, step {setting.step}" + (" (compiling first)" if kind not in self._warm else ""), self.spent)
@@ -64,7 +64,7 @@ class Runner:
             self._warm.add(kind)
             self._cache.keep(name, found)
         self.spent += found.spent
-        self._done[name] = found
+        self._done.add(name)
         return found
 
     @property

@@ -2,6 +2,8 @@
 
 import math
 
+import numpy as np
+
 from mooring_ros.mooring import SOLVERS, Mooring
 
 from .trade_choice import front
@@ -95,7 +97,7 @@ class Sweep:
         rows = slice(self._window.compared, None)
         return Result(
             setting, factor, steps, errors_between(measured.tension[rows], self._reference.tension),
-            errors_between(measured.force[rows], self._reference.tension), measured.cost, measured.worst_step, tension=measured.tension[rows],
+            errors_between(measured.force[rows], self._reference.tension), measured.cost, measured.worst_step, tension=measured.tension[rows].astype(np.float32),
         )
 
     def _error(self, result):

@@ -71,7 +71,7 @@ def choose(motion, cost, tension, effort):
     first, last = int(np.searchsorted(motion.times, start)), int(np.searchsorted(motion.times, start + length))
     rows = slice(begin, last + 1)
     times, poses, twists = motion.times[rows], motion.poses[rows].copy(), motion.twists[rows].copy()
-    if begin > 0:
+    if first > begin > 0:
         swell(times, poses, twists, times[first - begin] - times[0])
     return Window(times, poses, twists, max(first - begin - 1, 0), False, why)
 

@@ -7,6 +7,7 @@ import pytest
 
 from mooring_ros.mooring import Mooring
 from mooring_ros.offline import trade_window
+from mooring_ros.offline.console import ComputationFailed
 from mooring_ros.offline.motion_file import Motion
 from mooring_ros.offline.trade_choice import Goal, choose, front
 from mooring_ros.offline.trade_errors import Errors, errors_between
@@ -130,6 +131,20 @@ def test_a_reference_that_gets_worse_when_refined_is_the_best_that_there_was(sce
 
     reference = converged_reference(described, window, run, 1e-3, lambda: 10.0)
     assert not reference.converged and reference.refine == 8 and "differ more" in reference.why
+
+
+def test_a_reference_that_cannot_be_refined_is_the_finest_that_could_be_run(scene):
+    described = Mooring(scene).scene
+    window = trade_window.whole(moved(TIMES, np.sin(TIMES), np.cos(TIMES)))
+
+    def run(setting):
+        if setting.refine > 4.0:
+            raise ComputationFailed("ran away")
+        history = (TRUE + 1e4 * setting.refine**-2.0 * np.sin(2.0 * TIMES)[:, None])[1:]
+        return Measured(history, history, 1e-6, 1e-6, 1e-4)
+
+    reference = converged_reference(described, window, run, 1e-3, lambda: 10.0)
+    assert not reference.converged and reference.refine == 4 and reference.why == "ran away"
 
 
 def test_without_time_the_reference_says_so(scene):
