@@ -15,6 +15,8 @@ BENCHMARKS = {
     "trades": "the trade of speed for accuracy on twelve moorings, beside MoorDyn's and CableDyn's best (half an hour)",
     "closed_forms": "statics and platform stiffness against closed forms",
     "kernel_cost": "ns for one node and force evaluation, against a bare vector kernel",
+    "growth": "cost per node from 60 to 150 000 nodes, and a thousand platforms in real time (three minutes)",
+    "effects": "a scene without an effect against builds in which that effect's stage is removed (half an hour the first time: it compiles them)",
     "bergdahl": "the 33 m laboratory chain: 30 measured maxima",
     "bending": "the cantilevers of Hall, Srinivas and Yu against MoorDyn and the exact elastica: tip deflection, and decay",
     "rm3_cable": "the RM3 umbilical in waves against MoorDyn and CableDyn: tension and curvature along the cable (a quarter of an hour)",
@@ -30,7 +32,7 @@ BENCHMARKS = {
 }
 MODULES = {"node_latency": "latency_table"}  # where it is not the name itself
 DOCS = Path(__file__).parent.parent / "docs"
-DOCUMENTS = (DOCS / "measurements.md", DOCS / "physics.md", DOCS / "trades.md", DOCS / "trade.md")
+DOCUMENTS = tuple(DOCS / name for name in ("measurements.md", "physics.md", "trades.md", "trade.md", "growth.md"))
 
 
 def arguments(argv):

@@ -1,0 +1,59 @@
+"""Builds of the package in which the stage of an effect is removed, for `benchmarks.effects`."""
+
+import shutil
+from pathlib import Path
+
+PACKAGE = Path(__file__).parent.parent / "mooring_ros"
+# effect -> (file of the core, the condition of its stage): it becomes False, and Python leaves out what stands under it
+STAGES = {
+    "bending": [("forces.py", "if model.bending.stiffness.size > 0:")],
+    "waves and current profiles": [
+        ("forces.py", "if flowing:"),
+        ("forces.py", "if state.swell.shape[1] > 0:"),
+        ("surface.py", "if state.swell.shape[1] > 0:"),
+        ("explicit.py", "if model.sea.frequency.size > 0 and outdated(state.window_times, now, now + span):"),
+    ],
+    "load-strain curves and viscoelastic ropes": [("forces.py", "if model.ropes.curve_first.size + model.ropes.kelvin_first.size > 0:")],
+    "bathymetry and friction": [("forces.py", "if model.ground.on:"), ("points.py", "if model.ground.on:"), ("explicit.py", "if state.grip.shape[1] > 0:")],
+    "rods and bodies": [
+        ("forces.py", "if model.rigid.mass.size > 0:"),
+        ("forces.py", "if model.hulls.point.size > 0:"),
+        ("explicit.py", "if state.parts.size > 0:"),
+    ],
+    "free points": [("forces.py", "if model.free_points.size + model.rigid.mass.size > 0:")],
+    "line failures": [("explicit.py", "if model.failures.point.size > 0:")],
+}
+# what goes with it and has no condition of its own
+LINES = {
+    "load-strain curves and viscoelastic ropes": [
+        ("explicit.py", "copy_row(state.creep, scratch.creep)"),
+        ("guard.py", "copy_row(state.creep, scratch.saved_creep[place])"),
+        ("guard.py", "copy_row(scratch.saved_creep[place], state.creep)"),
+    ],
+    "bathymetry and friction": [
+        ("guard.py", "copy_rows(state.grip, scratch.saved_grip[place])"),
+        ("guard.py", "copy_rows(scratch.saved_grip[place], state.grip)"),
+    ],
+    "line failures": [
+        ("guard.py", "copy_row(state.failed, scratch.saved_failed[place])"),
+        ("guard.py", "copy_row(scratch.saved_failed[place], state.failed)"),
+    ],
+}
+ALL = "all of these"
+
+
+def build(effects, folder):
+    """A copy of the package in `folder` without the stages of `effects`. Raises ValueError when a stage is not where it was."""
+    shutil.copytree(PACKAGE, folder / PACKAGE.name, ignore=shutil.ignore_patterns("__pycache__"))
+    for effect in effects:
+        for file, condition in STAGES[effect]:
+            _replace(folder / PACKAGE.name / "core" / file, condition, "if False:", effect)
+        for file, line in LINES.get(effect, []):
+            _replace(folder / PACKAGE.name / "core" / file, line, "pass", effect)
+
+
+def _replace(path, old, new, effect):
+    text = path.read_text(encoding="utf-8")
+    if f" {old}\n" not in text:
+        raise ValueError(f"core/{path.name}: expected {old!r}, the stage of {effect}; it has moved, and benchmarks/removed.py must follow")
+    path.write_text(text.replace(f" {old}\n", f" {new}\n"), encoding="utf-8")
