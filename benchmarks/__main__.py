@@ -28,11 +28,12 @@ BENCHMARKS = {
     "parts": "a sphere that falls, one that heaves, and a rod that swings, against closed forms",
     "iswec": "load and excursion of the two ISWEC moorings, against MoorPy",
     "ropes": "a viscoelastic rope, stretched, held and swung, against closed forms and MoorDyn",
+    "fidelity": "the linear fidelity beyond its range, and the estimate of a mooring's error, against the truth (two minutes)",
     "node_latency": "the ROS 2 node: input stamp to wrench, against an empty echo node",
 }
 MODULES = {"node_latency": "latency_table"}  # where it is not the name itself
 DOCS = Path(__file__).parent.parent / "docs"
-DOCUMENTS = tuple(DOCS / name for name in ("measurements.md", "physics.md", "trades.md", "trade.md", "growth.md"))
+DOCUMENTS = tuple(DOCS / name for name in ("measurements.md", "physics.md", "trades.md", "trade.md", "growth.md", "fidelity.md"))
 
 
 def arguments(argv):
