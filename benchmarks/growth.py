@@ -2,9 +2,11 @@
 
 import resource
 import time
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
 
+import numba
 import numpy as np
 
 from mooring_ros import Fleet, Mooring, blocks
@@ -97,6 +99,40 @@ def fleet_cost(scene, threads, platforms, seconds):
     return {**found, "bytes": (_memory() - memory) / platforms}
 
 
+@numba.njit(nogil=True)
+def _count(n):
+    total = 0.0
+    for i in range(n):
+        total += np.sqrt(1.0 * i)
+    return total
+
+
+def speed_up(scene, platforms, rounds):
+    """{what: wall time on one thread over that on all}, medians of alternating rounds; of a fleet, and of loops that only count: what the machine gives."""
+    fleets = [Fleet([scene] * platforms, threads=threads, segments=FLEET_SEGMENTS) for threads in (1, None)]
+    for fleet in fleets:
+        fleet.settle(HERE)
+    found = {"fleet.run": [], "fleet.step": [], "loops that only count": []}
+    with ThreadPoolExecutor(fleets[1].threads) as pool:
+        for _ in range(rounds):
+            for what, ratios in found.items():
+                walls = []
+                for fleet in fleets:
+                    times = fleet[0].time + np.arange(1, 51) / RATE
+                    poses, twists = (np.repeat(way[:, None], platforms, axis=1) for way in poses_and_twists(*surge(times)))
+                    began = time.perf_counter()
+                    if what == "fleet.run":
+                        fleet.run(times, poses, twists)
+                    elif what == "fleet.step":
+                        for t, pose, twist in zip(times, poses, twists):
+                            fleet.step(t, pose, twist)
+                    else:
+                        list((map if fleet.threads == 1 else pool.map)(_count, [20_000_000] * (2 * fleets[1].threads)))
+                    walls.append(time.perf_counter() - began)
+                ratios.append(walls[0] / walls[1])
+    return {"threads": fleets[1].threads, **{what: float(np.median(ratios)) for what, ratios in found.items()}}
+
+
 def _memory():
     """What this process has in memory, bytes."""
     return int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1]) * resource.getpagesize()
@@ -124,15 +160,21 @@ def run(quick=False):
         for f in fleets
     ]
     fleet_head = ["threads", "run: CPU s for 1 s", "wall s", "steps: CPU s for 1 s", "wall s", "built in, s", "settled in, s", "kB a mooring"]
-    content = {"growth": tables.table(head, body), "fleet": tables.table(fleet_head, fleet_body)}
-    print(content["growth"], content["fleet"], sep="\n\n", flush=True)
+    faster = speed_up(base, 100 if quick else PLATFORMS, 3 if quick else 5)
+    faster_body = [[what, f"{ratio:.2f}"] for what, ratio in faster.items() if what != "threads"]
+    content = {
+        "growth": tables.table(head, body),
+        "fleet": tables.table(fleet_head, fleet_body),
+        "fleet_threads": tables.table(["", f"{faster['threads']} threads: times faster than one"], faster_body),
+    }
+    print(*content.values(), sep="\n\n", flush=True)
     costs = [row["run"] for row in rows]
     failed = []
     if max(costs) > FLAT * min(costs):
         failed.append(f"a node costs {1e9 * min(costs):.1f} to {1e9 * max(costs):.1f} ns, goal: within a factor {FLAT:g}")
     if not quick and fleets[0]["step"][0] > 1.0:
         failed.append(f"{PLATFORMS} platforms stepped on one core take {fleets[0]['step'][0]:.2f} s for a second, goal 1")
-    return {"rows": rows, "fleets": fleets, "tables": content, "failed": failed, "figures": {"growth.png": picture(rows)}}
+    return {"rows": rows, "fleets": fleets, "speed_up": faster, "tables": content, "failed": failed, "figures": {"growth.png": picture(rows)}}
 
 
 def picture(rows):

@@ -74,7 +74,7 @@ class Mooring:
     Raises SceneError for a bad scene, ValueError for bad arguments; MooringError when a computation cannot be completed.
     """
 
-    def __new__(cls, scene=None, fidelity="dynamic", solver="auto", dt=None, segments=None, refine=1.0, **_):
+    def __new__(cls, scene=None, fidelity="dynamic", solver="auto", dt=None, segments=None, refine=1.0, *_, **__):
         if cls is not Mooring or scene is None:
             return object.__new__(cls)
         if is_by_line(fidelity):
@@ -102,6 +102,8 @@ class Mooring:
             raise ValueError(f"refine is {refine!r}; expected a positive factor on the file's numbers of segments")
         if segments is not None and refine != 1.0:
             raise ValueError(f"segments is {segments!r} and refine is {refine!r}; expected one of the two")
+        if "scene" not in self.__dict__:  # __new__ has read it, but for a subclass
+            self.scene = scene if isinstance(scene, Scene) else load_scene(Path(scene))
         self.fidelity = fidelity
         self.solver = "implicit" if solver == "implicit" else "explicit"
         self._implicit, self._spectral_radius = None, float(shaped(spectral_radius, (), "spectral_radius", "a number"))

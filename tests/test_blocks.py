@@ -133,6 +133,7 @@ def test_small_scenes_other_solvers_and_bad_numbers_are_left_alone(small_blocks)
     lines = farm().lines[:3]
     assert type(Mooring(replace(farm(), lines=lines))) is Mooring
     assert type(Mooring(farm(), fidelity="quasi_static")) is Mooring
+    assert type(type("Own", (Mooring,), {})(farm())).__name__ == "Own"
     for wrong in ({"segments": "many"}, {"refine": -1.0}, {"segments": np.nan}):
         with pytest.raises(ValueError):
             Mooring(farm(), **wrong)
