@@ -1,4 +1,4 @@
-"""The trade of speed for accuracy on twelve moorings: ours by `mooring trade`, and MoorDyn's and CableDyn's best beside it.
+"""The trade of speed for accuracy on twelve moorings: ours, measured as `mooring trade` does, and MoorDyn's and CableDyn's best beside it.
 
 Cost is CPU time for a simulated second. The error is that of the force on the platform at the fairleads, against the same code's run that is converged in space
 and time: the worst of mean, dynamic and peak of the worst line, as `mooring trade` counts it. The peers' runs are kept outside the repository, and so are ours
@@ -6,22 +6,27 @@ until a source of the core changes.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from mooring_ros.offline.console import ComputationFailed
+from mooring_ros.mooring import Mooring
 from mooring_ros.offline.motion_file import Motion
-from mooring_ros.offline.trade import trade
 from mooring_ros.offline.trade_cache import Cache
 from mooring_ros.offline.trade_errors import errors_between
+from mooring_ros.offline.trade_measure import measure as measured
+from mooring_ros.offline.trade_setting import Setting
+from mooring_ros.offline.trade_window import whole
 
 from . import figures, peer_search, tables
 from .motions import poses_and_twists
 from .peer_cases import BY_NAME, TRADED, fairleads
 
-SECONDS = 60.0  # of CPU time for a trade of ours
+MESHES = (1.0, 0.5, 0.7, 1.4, 2.0)  # ours, of the file's segments
+IMPLICIT = (50, 100, 200)  # steps in a period
+FINE = 4.0  # segments of our converged run
+LONGEST = 10.0  # s of CPU time for one run of ours
 SAMPLES = 120  # in a period, at most 20 Hz
 DEAR = (  # whose fine runs cost the peers minutes each
     "laboratory chain, 33 m", "VolturnUS-S semi-taut", "VolturnUS-S semi-taut, up a slope", "VolturnUS-S semi-taut, rough bed", "RM3 cable", "lazy wave",
@@ -45,18 +50,45 @@ class Point:
 
 
 def ours(case):
-    """Points of our trade: what was run and not refused, errors of the fairleads' forces."""
+    """(points of all settings that could be run, error of the converged run that they are held against)."""
     scene, motion = case.still(), sampled(case)
-    found = trade(scene, motion, of="force", seconds=SECONDS)
+    cache, everything = Cache(scene, motion), whole(motion)
+    window = replace(everything, compared=int(np.searchsorted(motion.times, case.platform().start)) - 1)
     ends = [k for k, _ in fairleads(scene)]
-    cache, rows, points = Cache(scene, motion), slice(found.window.compared, None), []
-    for result in found.results:
-        run = cache.recall(result.setting, found.window, True) if result.measured and not result.refused else None
-        if run is not None and not run.refused:
-            errors = errors_between(run.force[rows][:, ends], found.reference.tension[:, ends])
-            label = f"{result.setting.method}, {result.setting.mesh} segments, step {result.setting.step}"
-            points.append(Point(result.setting.method, label, errors.worst / 100.0, run.cost, run.worst_step))
-    return points, float(found.reference.error.max()) / 100.0
+
+    def run(setting, limit, timed=True):
+        name = cache.name(setting, window, timed)
+        found = cache.recall(name)
+        if found is None:
+            found = measured(scene, setting, window, limit, timed)
+            cache.keep(name, found)
+        return found
+
+    def force(found):
+        return found.force[window.compared :, ends]
+
+    fine, half = (run(Setting("dynamic", "explicit", refine=refine), math.inf, False) for refine in (FINE, FINE / 2.0))
+    points = []
+    for setting in settings(case):
+        found = run(setting, LONGEST)
+        if found.refused:
+            print(f"{case.name}, {setting.method}, {setting.mesh} segments, step {setting.step}: {found.refused}", flush=True)
+        else:
+            label = f"{setting.method}, {setting.mesh} segments, step {setting.step}"
+            points.append(Point(setting.method, label, errors_between(force(found), force(fine)).worst / 100.0, found.cost, found.worst_step))
+    return points, errors_between(force(half), force(fine)).worst / 300.0
+
+
+def settings(case):
+    """Ours that are tried: all fidelities on the file's mesh, explicit dynamics on meshes with the default step and half of it, implicit ones with steps in a period."""
+    yield Setting("linear")
+    yield Setting("quasi_static")
+    for refine in MESHES:
+        yield Setting("dynamic", "explicit", refine=refine)
+    yield Setting("dynamic", "explicit", 0.5 * float(Mooring(case.still(), solver="explicit").step_limit.dt))
+    for refine in MESHES[:2]:
+        for steps in IMPLICIT:
+            yield Setting("dynamic", "implicit", peer_search.rounded(peer_search.period(case) / steps), refine=refine)
 
 
 def sampled(case):
@@ -107,11 +139,7 @@ def run(quick=False):
     found = {}
     for name in TRADED[:2] if quick else TRADED:
         case = BY_NAME[name]
-        try:
-            mine, known = ours(case)
-        except ComputationFailed as failure:
-            mine, known = [], math.nan
-            print(f"{name}: {failure}", flush=True)
+        mine, known = ours(case)
         (moordyn, no_moordyn), (cabledyn, no_cabledyn) = of_moordyn(case), of_cabledyn(case)
         found[name] = {"points": [*mine, *moordyn, *cabledyn], "known": known, "why": {"MoorDyn": no_moordyn, "CableDyn": no_cabledyn}}
         print(name, {code: _words(cheapest(found[name]["points"], code)) for code in ("ours", "MoorDyn", "CableDyn")}, flush=True)
