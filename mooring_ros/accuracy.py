@@ -1,9 +1,9 @@
 """How far a mooring's answers are from a converged dynamic one, estimated by solving a window of motion again on a finer mesh with half the step.
 
 The same window is solved with the present settings, with twice the segments and half the step, and with half the segments and twice the step. All
-begin at rest, the motion swelling over the first part of the window, which is not compared. The difference to the finer one, and the order by which
-the differences shrink, give the error by Richardson's extrapolation; the cheaper fidelities are compared with the finer dynamic solution as they are.
-The tension is the norm of the end force at the fairlead, errors are those of `offline.trade_errors`: per cent, the worst line of each.
+begin at rest, the motion swelling over the first part of the window, which is not compared. Richardson's extrapolation carries the finer history on
+to where the three lead, as far as their differences go the same way: where nodes hit the bed they do not, and the finer history is the best there
+is. The cheaper fidelities are compared with the finer dynamic solution as it is. The tension is the norm of the end force at the fairlead, errors are those of `offline.trade_errors`: per cent, the worst line of each.
 """
 
 import math
@@ -19,7 +19,7 @@ from .offline.trade_window import swell
 LEAD = 1.0 / 3.0  # of a window: the motion swells, nothing is compared
 CHUNK = 0.02  # s of CPU time between two pauses
 LEAST_SAMPLES = 30  # of a window
-LEAST_ORDER, MOST_ORDER = 1.2, 2.0  # what an observed order counts as
+LEAST_ORDER, MOST_ORDER = 1.0, 2.0  # what an observed order counts as, and what it is where there is no coarser mesh
 LEAST_SEGMENTS = 4  # of a line, for a coarser mesh that still says something
 
 
@@ -27,7 +27,7 @@ LEAST_SEGMENTS = 4  # of a line, for a coarser mesh that still says something
 class Accuracy:
     """Errors in per cent of mean, dynamic (rms about the mean, over the standard deviation) and peak tension; line: the one with the worst.
 
-    begin, end: of what was compared, s; compared: with what, in words; orders: observed for each of the three, None where there was no coarser mesh;
+    begin, end: of what was compared, s; compared: with what, in words; orders: observed in the mean and about it, None where there was no coarser mesh;
     cpu: s that it took; why: why there is no estimate, else "".
     """
 
@@ -78,18 +78,15 @@ def estimate(scene, settings, times, poses, twists, lengths=None, released=(), p
         mine = tension()
         finer = {**_mesh(settings, 2), "fidelity": "dynamic", "solver": own.solver, "dt": None if cheap else 0.5 * step}
         fine = tension(**finer)
-        errors = errors_between(mine, fine)
-        parts, orders = errors.parts(), None
-        if not cheap:
-            if min(own.segments) >= LEAST_SEGMENTS:
-                coarse = errors_between(tension(**_mesh(settings, 0.5), dt=2.0 * step, solver=own.solver), mine).parts()
-                orders = tuple(_order(before, after) for before, after in zip(coarse, parts))
-            factors = [2.0**order / (2.0**order - 1.0) for order in orders or (LEAST_ORDER,) * 3]
-            parts = parts * np.array(factors)
+        coarse = None
+        if not cheap and min(own.segments) >= LEAST_SEGMENTS:
+            coarse = tension(**_mesh(settings, 0.5), dt=2.0 * step, solver=own.solver)
     except (MooringError, ValueError) as error:
         return without(str(error), compared)
     spent.pause()
-    mean, dynamic, peak = (float(part) for part in parts)
+    true, orders = (fine, None) if cheap else _carried_on(coarse, mine, fine)
+    errors = errors_between(mine, true)
+    mean, dynamic, peak = errors.parts().tolist()
     return Accuracy(mean, dynamic, peak, own.line_names[errors.line], float(times[first]), float(times[-1]), compared, orders, spent.total)
 
 
@@ -100,11 +97,24 @@ def _mesh(settings, factor):
     return {"refine": factor * settings.get("refine", 1.0)}
 
 
-def _order(before, after):
-    """Order of convergence that two differences show, bounded."""
-    if not before > 0.0 or not after > 0.0:
-        return MOST_ORDER
-    return min(max(math.log2(before / after), LEAST_ORDER), MOST_ORDER)
+def _carried_on(coarse, own, fine):
+    """Histories (k, lines) that three on meshes twice as fine each lead to, and the orders in the mean and about it of the line that is worst.
+
+    Mean and fluctuation by themselves; coarse: None where there is none.
+    """
+    first, last = (None if coarse is None else own - coarse), fine - own
+    total, orders = fine.copy(), []
+    for part in (lambda history: history.mean(axis=0, keepdims=True), lambda history: history - history.mean(axis=0)):
+        change = part(last)
+        order, alike = np.full(own.shape[1], MOST_ORDER), np.ones(own.shape[1])
+        if first is not None:
+            before = part(first)
+            sizes = [np.maximum(np.sqrt((each**2).sum(axis=0)), 1e-300) for each in (before, change)]
+            order = np.clip(np.log2(sizes[0] / sizes[1]), LEAST_ORDER, MOST_ORDER)
+            alike = np.maximum((before * change).sum(axis=0) / (sizes[0] * sizes[1]), 0.0)
+        total += alike * change / (2.0**order - 1.0)
+        orders.append(float(order[np.abs(change).max(axis=0).argmax()]))
+    return total, None if first is None else tuple(orders)
 
 
 def _words(own, step):
