@@ -1,7 +1,7 @@
 """Settings of one method: meshes times steps, some of them run, the others predicted from those.
 
 Error: that of the mesh, measured along the meshes at one step, and that of the step, measured as differences along the steps at one mesh, as squares
-added. Cost: measured along the meshes, times what the steps change at the one mesh. Both are then corrected by what the nearest run says.
+added. Cost: that of one mesh with as many steps, times what the mesh changes. Both are then corrected by what the nearest run says.
 """
 
 import math
@@ -73,12 +73,11 @@ class Family:
             whole = np.array([getattr(result, which).parts() for result in column])
             by_step = np.array([self._step_errors(result.steps) for result in column])
             mesh = np.sqrt(np.maximum(whole**2 - by_step**2, (LEAST_MESH_SHARE * whole) ** 2))
-            self._mesh_tables[which] = np.log([r.factor for r in column]), np.log(np.maximum(mesh, 1e-9)), np.log([r.cost for r in column])
+            self._mesh_tables[which] = np.log([r.factor for r in column]), np.log(np.maximum(mesh, 1e-9)), np.log([r.cost / self._cost_of_steps(r.steps) for r in column])
         factors, mesh, costs = self._mesh_tables[which]
         own = np.exp([_along(factors, part, math.log(factor)) for part in mesh.T])
         errors = np.sqrt(own**2 + self._step_errors(steps) ** 2)
-        more = (steps / self.default_steps(factor)) / (column[0].steps / self.default_steps(column[0].factor))
-        return errors, math.exp(_along(factors, costs, math.log(factor))) * self._cost_ratio(more)
+        return errors, math.exp(_along(factors, costs, math.log(factor))) * self._cost_of_steps(steps)
 
     def corrected(self, factor, steps, which="errors"):
         """`predict`, times what the nearest run has against its own prediction."""
@@ -113,13 +112,12 @@ class Family:
         nearest = min(max(x, counts[0]), counts[-1])
         return np.exp([np.interp(nearest, counts, part) - order * (x - nearest) for part in logs.T])
 
-    def _cost_ratio(self, more):
-        """Cost with `more` times the steps over that without, measured at the row's mesh."""
+    def _cost_of_steps(self, steps):
+        """Cost of a number of steps in a sample at the row's mesh, over that of its fewest."""
         row = self._row()
-        base = {result.factor: result for result in self._column()}.get(row[0].factor)
-        if len(row) < 2 or base is None:
-            return more
-        return math.exp(_along(np.log([r.steps / base.steps for r in row]), np.log([r.cost / base.cost for r in row]), math.log(more)))
+        if len(row) < 2:
+            return float(steps)
+        return math.exp(_along(np.log([r.steps for r in row]), np.log([r.cost / row[0].cost for r in row]), math.log(steps)))
 
 
 def _step_table(row):

@@ -16,11 +16,14 @@ FEWEST = 3.0  # segments of a line, on average
 WORST = 10.0  # per cent of error beyond which nothing coarser is tried, or five times what is asked
 USELESS = 3.0  # times the cost of another method at no less error: not followed on other meshes
 ENOUGH = 0.2  # of the error: a finer step that changes less ends the row of steps
+SLOW, PATIENCE = 0.85, 3  # of the last error, and how often in a row: finer meshes that bring no more lead nowhere
 STUCK = 0.8  # of the last change: a finer step that changes as much leads nowhere
 AS_GOOD = 1.15  # times the least error: worth nothing more
 DEEPEST = 6  # doublings of the steps
-SEARCH_MESH, SEARCH_STEP = 1.03, 1.2  # grid on which the goal is searched for
+SEARCH_MESH, SEARCH_STEP = 1.02, 1.2  # grid on which the goal is searched for
 WORTH = 0.04  # less gain than this is not run for
+SURE = 1.02  # times a predicted error that should be within the goal
+HOPEFUL, WORTH_HOPING, HOPES = 0.88, 0.15, 4  # times one that may be by chance, what it must save, and how often that is tried
 ROUNDS = 10  # runs of the search, and of verifying the front
 PASSES = 4.0  # runs that one measurement takes
 
@@ -107,18 +110,19 @@ class Sweep:
         """Finer until the error is small enough or the time is up, with shorter steps where finer meshes alone do not help; coarser until it is of no use."""
         more = self._best_share(family)
         first = self._run(family, 1.0, more * family.default_steps(1.0))
-        before, last = None, first
+        before, last, slow = None, first, 0
         while last and (last.refused or self._error(last) > self._least):
-            if before and not last.refused and not before.refused and self._error(last) > STUCK * self._error(before):
-                if family.solver != "implicit":
-                    break
+            slow = slow + 1 if before and not last.refused and not before.refused and self._error(last) > SLOW * self._error(before) else 0
+            if slow == PATIENCE:
+                break
+            if slow and family.solver == "implicit":
                 more *= 2
                 shorter = self._run(family, last.factor, more * family.default_steps(last.factor), 2.0 * last.cost)
                 if shorter is None or shorter.refused or self._error(shorter) > STUCK * self._error(last):
                     break
-                before, last = None, shorter
-            factor = self._meshes.nearest(last.factor * LADDER)
-            if factor > self._reference.refine / 2.0:
+                before, last, slow = None, shorter, 0
+            factor = self._meshes.nearest(min(last.factor * LADDER, self._reference.refine / 2.0))
+            if factor <= last.factor:
                 break
             growth = last.cost / before.cost if before and before.cost > 0.0 else 2.0
             before, last = last, self._run(family, factor, more * family.default_steps(factor), last.cost * max(growth, 1.0) if last.refused is None else None)
@@ -194,27 +198,36 @@ class Sweep:
         """Run what the predictions put on the front."""
         for _ in range(ROUNDS):
             waiting = [result for result in front(self.usable + self._predictions(), self._goal.of) if not result.measured and not self._refused_for_time(result)]
-            if not waiting or self._run_predicted(waiting[0]) is None:
+            if not waiting:
                 break
+            self._run_predicted(waiting[0])
 
     def _search(self):
-        """Run what the predictions, on all meshes and steps between those that were run, hold for the best answer to the goal."""
-        goal = self._goal
+        """Run what the predictions, on all meshes and steps between those that were run, hold for the best answer to the goal.
+
+        Errors wobble from mesh to mesh: what should just miss the error is tried, too, where it would save much.
+        """
         for _ in range(ROUNDS):
-            candidates = []
-            for family in self.families:
-                candidates += self._near_goal(family)
-            runs = [(self._error(result), result.cost) for result in self.usable]
-            met = [goal.rank(*pair) for pair in runs if goal.within_error(pair[0]) and goal.within_budget(pair[1])]
-            best = min(met, default=(math.inf, math.inf))
-            better = [c for c in candidates if goal.rank(self._error(c), c.cost)[0] < (1.0 - WORTH) * best[0] and not self._refused_for_time(c)]
+            better = self._better(SURE, WORTH)
             if not better:
                 break
-            if self._run_predicted(min(better, key=lambda c: goal.rank(self._error(c), c.cost))) is None:
-                break
+            self._run_predicted(min(better, key=lambda c: self._goal.rank(self._error(c), c.cost)))
+        for _ in range(HOPES if self._goal.error is not None else 0):
+            better = self._better(HOPEFUL, WORTH_HOPING)
+            if better:
+                self._run_predicted(min(better, key=self._error))
 
-    def _near_goal(self, family):
-        """Predicted Results that would answer the goal."""
+    def _better(self, margin, gain):
+        """Predicted Results that, with `margin` times their errors, would answer the goal by the share `gain` better than what has been run."""
+        goal = self._goal
+        runs = [(self._error(result), result.cost) for result in self.usable]
+        met = [goal.rank(*pair) for pair in runs if goal.within_error(pair[0]) and goal.within_budget(pair[1])]
+        best = min(met, default=(math.inf, math.inf))[0]
+        candidates = [c for family in self.families for c in self._near_goal(family, margin)]
+        return [c for c in candidates if goal.rank(self._error(c), c.cost)[0] < (1.0 - gain) * best and not self._refused_for_time(c)]
+
+    def _near_goal(self, family, margin):
+        """Predicted Results of a family that would answer the goal with `margin` times their errors."""
         usable = family.usable()
         if len(usable) < 2:
             return []
@@ -228,7 +241,7 @@ class Sweep:
                 if (factor, steps) in family.results or family.setting(factor, steps) in seen:
                     continue
                 predicted = family.corrected(factor, steps, self._goal.of)
-                if predicted and self._goal.within_error(1.02 * predicted[0].max()) and self._goal.within_budget(1.02 * predicted[1]):
+                if predicted and self._goal.within_error(margin * predicted[0].max()) and self._goal.within_budget(SURE * predicted[1]):
                     found.append((family, factor, steps))
         return [result for place in found for result in self._predicted(*place)]
 
