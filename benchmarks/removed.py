@@ -1,6 +1,7 @@
 """Builds of the package in which the stage of an effect is removed, for `benchmarks.effects`."""
 
-import shutil
+import hashlib
+import os
 from pathlib import Path
 
 PACKAGE = Path(__file__).parent.parent / "mooring_ros"
@@ -42,18 +43,41 @@ LINES = {
 ALL = "all of these"
 
 
-def build(effects, folder):
-    """A copy of the package in `folder` without the stages of `effects`. Raises ValueError when a stage is not where it was."""
-    shutil.copytree(PACKAGE, folder / PACKAGE.name, ignore=shutil.ignore_patterns("__pycache__"))
+def build(effects, root):
+    """Folder with a copy of the package without the stages of `effects`, below the folder `root`; the package itself when there are none.
+
+    The folder is named after what is in it, and made once: what has been compiled there stays good. Raises ValueError when a stage is not where it was.
+    """
+    if not effects:
+        return PACKAGE.parent
+    sources = sorted(PACKAGE.rglob("*.py"))
+    changed = {path: _without(effects, path) for path in sources}
+    digest = hashlib.sha256("".join(changed.values()).encode()).hexdigest()[:16]
+    folder = root / digest
+    if not folder.exists():
+        made = root / f"{digest}.{os.getpid()}"
+        for path, text in changed.items():
+            target = made / path.relative_to(PACKAGE.parent)
+            target.parent.mkdir(parents=True, exist_ok=True)
+            target.write_text(text, encoding="utf-8")
+        made.rename(folder)
+    return folder
+
+
+def _without(effects, path):
+    """Text of a file of the package without the stages of `effects`."""
+    text = path.read_text(encoding="utf-8")
+    if path.parent.name != "core":
+        return text
     for effect in effects:
         for file, condition in STAGES[effect]:
-            _replace(folder / PACKAGE.name / "core" / file, condition, "if False:", effect)
+            text = _replaced(text, path, condition, "if False:", effect) if path.name == file else text
         for file, line in LINES.get(effect, []):
-            _replace(folder / PACKAGE.name / "core" / file, line, "pass", effect)
+            text = _replaced(text, path, line, "pass", effect) if path.name == file else text
+    return text
 
 
-def _replace(path, old, new, effect):
-    text = path.read_text(encoding="utf-8")
+def _replaced(text, path, old, new, effect):
     if f" {old}\n" not in text:
         raise ValueError(f"core/{path.name}: expected {old!r}, the stage of {effect}; it has moved, and benchmarks/removed.py must follow")
-    path.write_text(text.replace(f" {old}\n", f" {new}\n"), encoding="utf-8")
+    return text.replace(f" {old}\n", f" {new}\n")
