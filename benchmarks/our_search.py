@@ -8,8 +8,8 @@ from .peer_runs import error, of_ours, transit
 from .peer_search import period
 
 RATE = 100.0  # Hz, at which the motion is sampled for references
-IMPLICIT_STEPS = (25, 35, 50, 70, 100, 140, 200, 280, 400, 560, 800)  # in a period
-EXPLICIT_PARTS = (1.0, 0.7, 0.5, 0.35, 0.25)  # of the largest step
+IMPLICIT_STEPS = (35, 50, 70, 100, 140, 200, 400)  # in a period
+EXPLICIT_PARTS = (1.0, 0.7, 0.5, 0.25)  # of the largest step
 LONGEST_INTERVAL = 1.0 / 25.0  # between samples, of a period
 FEWEST = 105  # samples to take an error from
 
@@ -65,6 +65,6 @@ def rates(case, dt):
     motion = case.platform()
     longest = min(LONGEST_INTERVAL * period(case), (motion.end - motion.start) / FEWEST)
     if dt is None:
-        return (20.0, *(1.0 / x for x in (longest, 0.5 * longest)))
-    wholes = {max(1, int(x / dt)) for x in (dt, 0.25 * longest, 0.5 * longest, longest)}
+        return (20.0, 1.0 / longest)
+    wholes = {max(1, int(x / dt)) for x in (0.3 * longest, longest)}
     return tuple(sorted({1.0 / (n * dt) for n in wholes}))
