@@ -256,6 +256,8 @@ def _new_work(model, plan):
         left=np.zeros((threes, 3)),
         axial=np.zeros(n),
         damper=np.zeros(n),
+        pulled=np.zeros(n),
+        touched=np.zeros(n),
         bent=np.zeros((plan.rows.size, 3, 3)),
         clamp_turn=np.zeros((clamps, 2, 3, 3)),
         clamp_axis=np.zeros((clamps, 3, 3)),

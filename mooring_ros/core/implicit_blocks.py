@@ -73,7 +73,7 @@ def _turn_with_segment(state, plan, values, i, s, size, h, per_length):
 
 
 @routine
-def node_blocks(model, state, plan, c_v, c_m, values):
+def node_blocks(model, state, plan, touched, c_v, c_m, values):
     """Inertia with its added mass, drag, the flat bed, and what turns with the line's direction in drag and inertia.
 
     What shares its motion with others gets its inertia from these (implicit_parts.py).
@@ -111,7 +111,7 @@ def node_blocks(model, state, plan, c_v, c_m, values):
         values[own, 8] += isotropic + lengthwise * t2 * t2 + crosswise * m2 * m2
         if not model.ground.on:
             depth = model.bed_level - state.position[2, i]
-            if depth > 0.0 and model.bed_stiffness[i] * depth > model.bed_damping[i] * state.velocity[2, i]:
+            if touched[i] != 0.0 and model.bed_stiffness[i] * depth > model.bed_damping[i] * state.velocity[2, i]:
                 values[own, 8] += model.bed_stiffness[i] + c_v * model.bed_damping[i]
         if per_size == 0.0:
             continue

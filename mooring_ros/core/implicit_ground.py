@@ -65,21 +65,21 @@ def _sticking_blocks(ground, place, push, pressing, f, give, sliding, e, n, valu
 
 
 @routine
-def ground_step_blocks(model, state, plan, bed, c_v, values):
+def ground_step_blocks(model, state, plan, bed, touched, c_v, values):
     """Add the blocks of all nodes that press on the bed; bed (4, n): its level under them (m) and its unit normal."""
     ground, velocity, position = model.ground, state.velocity, state.position
     for i in range(model.size):
+        if touched[i] == 0.0:
+            continue
         n = (bed[1, i], bed[2, i], bed[3, i])
         depth = (bed[0, i] - position[2, i]) * n[2]
-        if not depth > 0.0:
-            continue
         speed = velocity[0, i] * n[0] + velocity[1, i] * n[1] + velocity[2, i] * n[2]
         push = model.bed_stiffness[i] * depth - model.bed_damping[i] * speed
         if not push > 0.0:
             continue
         place, pressing = plan.node_block[i], model.bed_stiffness[i] + c_v * model.bed_damping[i]
         _add_outer(values, place, pressing, n, n)
-        if ground.law == NO_FRICTION:
+        if ground.law == NO_FRICTION or not depth > 0.0:
             continue
         t = (state.tangent[0, i] + state.tangent[0, i + 1], state.tangent[1, i] + state.tangent[1, i + 1], state.tangent[2, i] + state.tangent[2, i + 1])
         px, py, pz, _, inverse = along_bed(t[0], t[1], t[2], n[0], n[1], n[2])

@@ -17,6 +17,7 @@ import numpy as np
 from .cache import routine, stage
 from .forces import load_nodes
 from .implicit_blocks import bent_blocks, clear_blocks, hand_on, line_blocks, node_blocks, surface_blocks, turn_blocks
+from .implicit_gates import catch_nodes, catch_segments
 from .implicit_ground import ground_step_blocks
 from .implicit_parts import mass_blocks, out_of_balance
 from .implicit_solve import SOLVED, solve_blocks
@@ -40,6 +41,8 @@ class Work(NamedTuple):
     left: np.ndarray  # (T, 3): forces out of balance after it
     axial: np.ndarray  # (n,) N/m: slope of the tension with the segment's length
     damper: np.ndarray  # (n,) N s/m: ... with its rate
+    pulled: np.ndarray  # (n,) 1 for segments that have been taut in a step's iterations (implicit_gates.py)
+    touched: np.ndarray  # (n,) 1 for nodes that have been in the bed
     bent: np.ndarray  # (b, 3, 3)
     clamp_turn: np.ndarray  # (C, 2, 3, 3)
     clamp_axis: np.ndarray  # (C, 3, 3)
@@ -165,9 +168,18 @@ def apply(model, state, plan, work, share, c_v, c_m, c_a):
 
 
 @routine
-def load_at_end(model, state, scratch):
+def load_at_end(model, state, scratch, work):
     """All forces, by the plain laws."""
     load_nodes(model, state, scratch, 0.0, 0.0, state.settings[2] != 0.0, True)
+    catch_segments(model, state, work.pulled)
+    catch_nodes(model, state, scratch.bed, work.touched)
+
+
+@stage
+def close_gates(work):
+    for i in range(work.pulled.size):
+        work.pulled[i] = 0.0
+        work.touched[i] = 0.0
 
 
 @routine
@@ -179,9 +191,9 @@ def tangent(model, state, scratch, plan, work, c_v, c_m):
         work.axial[i] = model.stiffness[i] * model.inverse_length[i]
         work.damper[i] = model.damping[i]
     line_blocks(model, state, plan, work.axial, work.damper, c_v, values)
-    node_blocks(model, state, plan, c_v, c_m, values)
+    node_blocks(model, state, plan, work.touched, c_v, c_m, values)
     if model.ground.on:
-        ground_step_blocks(model, state, plan, scratch.bed, c_v, values)
+        ground_step_blocks(model, state, plan, scratch.bed, work.touched, c_v, values)
     if state.settings[2] != 0.0:
         surface_blocks(model, state, plan, values)
     if model.bending.stiffness.size > 0:
@@ -204,8 +216,9 @@ def balance_step(model, state, scratch, plan, work, scheme, h, end):
     c_v, c_a = gamma / (beta * h), 1.0 / (beta * h * h)
     c_m = c_a * (1.0 - alpha_m) / (1.0 - alpha_f)
     predict(model, state, work, scheme, h)
+    close_gates(work)
     place_coupled_points(model, state, scratch.motion, end)
-    load_at_end(model, state, scratch)
+    load_at_end(model, state, scratch, work)
     largest, merit = out_of_balance(model, state, scratch, plan, work.right)
     evaluations = 1
     for iteration in range(MOST_ITERATIONS):
@@ -219,7 +232,7 @@ def balance_step(model, state, scratch, plan, work, scheme, h, end):
         share = 1.0
         apply(model, state, plan, work, 1.0, c_v, c_m, c_a)
         for search in range(SEARCHES + 1):
-            load_at_end(model, state, scratch)
+            load_at_end(model, state, scratch, work)
             largest, new = out_of_balance(model, state, scratch, plan, work.left)
             evaluations += 1
             if new <= WORSE * merit or search == SEARCHES:
