@@ -258,9 +258,10 @@ class Mooring:
             self._linear.show(self._state, self.pose, self.twist, 0, self._readings)
         elif self._settled:
             settings = self._state.settings
+            accelerations = [array.copy() for array in (self._state.acceleration, self._state.parts_acceleration)]
             evaluate_once(self._model, self._state, self._scratch, settings[0], settings[1], bool(settings[2]))
-            if self._implicit:
-                self._implicit.begin(self._state)
+            if self._implicit:  # a jump of the forces is for the next step to answer: its first moment tells nothing of it
+                self._state.acceleration[:], self._state.parts_acceleration[:] = accelerations
             observe(self._model, self._state, 0, self._readings)
 
     def snapshot(self):

@@ -15,7 +15,7 @@ from .explicit import look_at_surface, remember_grip
 from .failures import part
 from .forces import evaluate_in_place
 from .guard import FASTEST, IMPLAUSIBLE, copy_rows, overstretched, recall, runaway, save, speed_of_ends
-from .implicit_newton import NEWTON_DONE, TOLERANCE, Work, balance_step, keep_start, return_to_start, scheme_of
+from .implicit_newton import LOOSE, NEWTON_DONE, TOLERANCE, Work, balance_step, keep_start, return_to_start, scheme_of
 from .implicit_parts import share_accelerations
 from .implicit_plan import make_topology
 from .packed import entry
@@ -50,11 +50,11 @@ def recall_accelerations(state, work):
     copy_rows(work.saved_parts[1], state.parts_filtered)
 
 
-@stage
-def restart(state):
-    """Begin with accelerations as they are, after something else than the motion has changed them."""
-    copy_rows(state.acceleration, state.filtered)
-    copy_rows(state.parts_acceleration, state.parts_filtered)
+@routine
+def recall_start_accelerations(state, work):
+    """A jump of the forces is for the next step to answer: accelerations of its first moment tell nothing of it."""
+    copy_rows(work.moved[2], state.acceleration)
+    copy_rows(work.parts_moved[0], state.parts_acceleration)
 
 
 @stage
@@ -65,7 +65,7 @@ def coarsest(at, pieces):
 
 @paragraph
 def take_step(model, state, scratch, plan, work, scheme, h, start, share, fastest, report):
-    """One step of h (s), `share` of the interval, in pieces where it must be. Returns False when the finest one comes to no balance."""
+    """One step of h (s), `share` of the interval, in pieces where it must be. Returns False when the finest one does not come near a balance."""
     settings = state.settings
     pieces = FINEST // int(settings[3])
     at, good = 0, True
@@ -74,7 +74,8 @@ def take_step(model, state, scratch, plan, work, scheme, h, start, share, fastes
         piece = h * pieces / FINEST
         end = start + share * (at + pieces) / FINEST
         settings[6] = state.clock[0] + end * scratch.motion[7, 0]
-        status, iterations, evaluations = balance_step(model, state, scratch, plan, work, scheme, piece, end)
+        tolerance = LOOSE if pieces == 1 else TOLERANCE
+        status, iterations, evaluations = balance_step(model, state, scratch, plan, work, scheme, piece, end, tolerance)
         report[0] += evaluations
         if status == NEWTON_DONE and not runaway(model, state, fastest):
             at += pieces
@@ -146,8 +147,9 @@ def advance(model, state, scratch, plan, work, scheme, longest, time, pose, twis
                 model.failures, now + h, state.tension, state.end_point, model.end_node, state.position, state.velocity, model.point_node, state.failed
             )
             if parted > 0:
+                keep_start(model, state, work)
                 evaluate_in_place(model, state, scratch, 0.0, 0.0, settings[2] != 0.0)
-                restart(state)
+                recall_start_accelerations(state, work)
                 if progress[0] < steps:
                     return PARTED
     progress[0] = 0
@@ -214,7 +216,7 @@ class ImplicitSolver:
         self._topology, self._work, self._progress = None, None, np.zeros(1, dtype=np.int64)
 
     def begin(self, state):
-        """Take the accelerations as they stand, after something else than the motion has changed them."""
+        """Begin at rest."""
         state.filtered[:] = state.acceleration
         state.parts_filtered[:] = state.parts_acceleration
 
@@ -253,9 +255,14 @@ def _new_work(model, plan):
     return Work(
         values=np.zeros((plan.places + plan.riding_places + 1, 9)),
         right=np.zeros((threes, 3)),
+        balance=np.zeros((threes, 3)),
         left=np.zeros((threes, 3)),
         axial=np.zeros(n),
         damper=np.zeros(n),
+        foreseen=np.zeros(n),
+        last=np.zeros(n),
+        next=np.zeros(n),
+        linear=np.zeros(n),
         pulled=np.zeros(n),
         touched=np.zeros(n),
         bent=np.zeros((plan.rows.size, 3, 3)),

@@ -24,12 +24,15 @@ def clear_blocks(values):
 
 
 @routine
-def line_blocks(model, state, plan, axial, damper, c_v, values):
-    """Axial stiffness and internal damping of taut segments; axial (n,) N/m and damper (n,) N s/m: slopes of their tension."""
+def line_blocks(model, state, plan, axial, damper, foreseen, c_v, values):
+    """Axial stiffness and internal damping of taut segments; axial (n,) N/m and damper (n,) N s/m: slopes of their tension.
+
+    The tension that turns them is the foreseen one (n,), N: see implicit_tensions.py.
+    """
     x, v = state.position, state.velocity
     for s in range(1, model.size + 1):
-        tension = state.tension[s]
-        if not tension > 0.0:
+        tension = foreseen[s]
+        if not (tension > 0.0 or state.tension[s] > 0.0):
             continue
         i = s - 1
         q0, q1, q2 = state.tangent[0, s], state.tangent[1, s], state.tangent[2, s]

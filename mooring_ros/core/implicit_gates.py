@@ -6,7 +6,11 @@ iteration will be stopped within this step: from then on its law holds on both s
 pulling at the bed. So it is caught by the damper, at most rate * (damping / stiffness) before it arrives.
 """
 
-from .cache import routine
+import numpy as np
+
+from .cache import routine, stage
+from .friction import SATURATED, saturated_part
+from .ground import along_bed, in_plane
 
 
 @routine
@@ -42,5 +46,22 @@ def catch_nodes(model, state, bed, touched):
             v = state.velocity
             speed = v[0, i] * n[0] + v[1, i] * n[1] + v[2, i] * n[2]
             push = max(model.bed_stiffness[i] * depth - model.bed_damping[i] * speed, 0.0)
+            drag = (0.0, 0.0, 0.0)
+            if push > 0.0 and model.ground.law == SATURATED:
+                drag = saturated_friction(model.ground, state, i, push, n)
             for k in range(3):
-                state.force[k, i] += push * n[k]
+                state.force[k, i] += push * n[k] - drag[k]
+
+
+@stage
+def saturated_friction(ground, state, i, push, n):
+    """Housner's friction (N) against the motion of node i that presses on the bed, normal n (3,), with `push` (N): the plain law."""
+    t, v = state.tangent, state.velocity
+    px, py, pz, square, inverse = along_bed(t[0, i] + t[0, i + 1], t[1, i] + t[1, i + 1], t[2, i] + t[2, i + 1], n[0], n[1], n[2])
+    dx, dy, dz = in_plane(v[0, i], v[1, i], v[2, i], n[0], n[1], n[2])
+    along = ground.directional * inverse * (dx * px + dy * py + dz * pz)
+    dx, dy, dz = dx - along * px, dy - along * py, dz - along * pz
+    speed, drift = abs(along) * np.sqrt(square), np.sqrt(dx * dx + dy * dy + dz * dz)
+    axial = along * saturated_part(speed, speed, push, ground.static_axial, ground.kinetic_axial, ground.ramp, 0.0)
+    side = saturated_part(drift, drift, push, ground.static_across, ground.kinetic_across, ground.ramp, 0.0)
+    return axial * px + side * dx, axial * py + side * dy, axial * pz + side * dz

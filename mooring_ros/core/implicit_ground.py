@@ -79,7 +79,7 @@ def ground_step_blocks(model, state, plan, bed, touched, c_v, values):
             continue
         place, pressing = plan.node_block[i], model.bed_stiffness[i] + c_v * model.bed_damping[i]
         _add_outer(values, place, pressing, n, n)
-        if ground.law == NO_FRICTION or not depth > 0.0:
+        if ground.law == NO_FRICTION or ground.law != SATURATED and not depth > 0.0:
             continue
         t = (state.tangent[0, i] + state.tangent[0, i + 1], state.tangent[1, i] + state.tangent[1, i + 1], state.tangent[2, i] + state.tangent[2, i + 1])
         px, py, pz, _, inverse = along_bed(t[0], t[1], t[2], n[0], n[1], n[2])

@@ -20,6 +20,7 @@ from .implicit_blocks import bent_blocks, clear_blocks, hand_on, line_blocks, no
 from .implicit_gates import catch_nodes, catch_segments
 from .implicit_ground import ground_step_blocks
 from .implicit_parts import mass_blocks, out_of_balance
+from .implicit_tensions import blend, copy_tensions, foresee, mixed_merit
 from .implicit_solve import SOLVED, solve_blocks
 from .packed import packed
 from .points import place_coupled_points
@@ -27,7 +28,8 @@ from .rigid import turn_by
 
 MOST_ITERATIONS = 12
 SEARCHES = 4  # how often a Newton step is halved at most
-WORSE = 2.0  # times the forces out of balance that a full Newton step may leave: slack and contact come and go
+WORSE, BOLD = 2.0, 4  # times what was missed that a Newton step may leave: slack and contact come and go; in how many iterations
+LOOSE = 1e-2  # of Plan.scale: what may remain in the shortest piece of a step, where the bed's laws have no balance
 TOLERANCE = 1e-4  # of Plan.scale: forces out of balance that may remain
 NEWTON_DONE, NOT_BALANCED = 0, 1
 
@@ -38,9 +40,14 @@ class Work(NamedTuple):
 
     values: np.ndarray  # (S, 9): blocks of a Plan
     right: np.ndarray  # (T, 3): forces out of balance, then the Newton step
-    left: np.ndarray  # (T, 3): forces out of balance after it
+    balance: np.ndarray  # (T, 3): forces out of balance after it
+    left: np.ndarray  # (T, 3): ... with tensions of their own
     axial: np.ndarray  # (n,) N/m: slope of the tension with the segment's length
     damper: np.ndarray  # (n,) N s/m: ... with its rate
+    foreseen: np.ndarray  # (n,) N: tensions of their own (implicit_tensions.py), those of the last iteration, after a full step, and by the slope
+    last: np.ndarray
+    next: np.ndarray
+    linear: np.ndarray
     pulled: np.ndarray  # (n,) 1 for segments that have been taut in a step's iterations (implicit_gates.py)
     touched: np.ndarray  # (n,) 1 for nodes that have been in the bed
     bent: np.ndarray  # (b, 3, 3)
@@ -176,8 +183,12 @@ def load_at_end(model, state, scratch, work):
 
 
 @stage
-def close_gates(work):
+def start_step(model, state, work):
+    """Slopes of the tensions, tensions as they are, and no gate open."""
     for i in range(work.pulled.size):
+        work.axial[i] = model.stiffness[i] * model.inverse_length[i]
+        work.damper[i] = model.damping[i]
+        work.foreseen[i] = state.tension[i]
         work.pulled[i] = 0.0
         work.touched[i] = 0.0
 
@@ -187,10 +198,7 @@ def tangent(model, state, scratch, plan, work, c_v, c_m):
     """Fill work.values."""
     values = work.values
     clear_blocks(values)
-    for i in range(model.size + 1):
-        work.axial[i] = model.stiffness[i] * model.inverse_length[i]
-        work.damper[i] = model.damping[i]
-    line_blocks(model, state, plan, work.axial, work.damper, c_v, values)
+    line_blocks(model, state, plan, work.axial, work.damper, work.foreseen, c_v, values)
     node_blocks(model, state, plan, work.touched, c_v, c_m, values)
     if model.ground.on:
         ground_step_blocks(model, state, plan, scratch.bed, work.touched, c_v, values)
@@ -207,40 +215,45 @@ def tangent(model, state, scratch, plan, work, c_v, c_m):
 
 
 @routine
-def balance_step(model, state, scratch, plan, work, scheme, h, end):
+def balance_step(model, state, scratch, plan, work, scheme, h, end, tolerance):
     """Take a step of h (s) to `end`, 0..1 of the interval, from what `keep_start` has kept.
 
-    Returns (NEWTON_DONE or NOT_BALANCED, iterations, evaluations). At most MOST_ITERATIONS times 1 + SEARCHES evaluations.
+    tolerance: of Plan.scale, what may remain out of balance after the last iteration. Returns (NEWTON_DONE or NOT_BALANCED, iterations, evaluations). At most MOST_ITERATIONS times 1 + SEARCHES evaluations.
     """
     alpha_m, alpha_f, beta, gamma = scheme
     c_v, c_a = gamma / (beta * h), 1.0 / (beta * h * h)
     c_m = c_a * (1.0 - alpha_m) / (1.0 - alpha_f)
+    start_step(model, state, work)
     predict(model, state, work, scheme, h)
-    close_gates(work)
     place_coupled_points(model, state, scratch.motion, end)
     load_at_end(model, state, scratch, work)
-    largest, merit = out_of_balance(model, state, scratch, plan, work.right)
+    largest = out_of_balance(model, state, scratch, plan, work.right)
+    merit = mixed_merit(model, state, plan, work.axial, work.damper, work.foreseen, work.linear, work.right, work.left)
     evaluations = 1
     for iteration in range(MOST_ITERATIONS):
         if largest <= TOLERANCE and iteration > 0:  # the first one is always worth it: errors of many small steps would gather
             return NEWTON_DONE, iteration, evaluations
-        if not merit < np.inf:
+        if not (largest < np.inf and merit < np.inf):
             return NOT_BALANCED, iteration, evaluations
         tangent(model, state, scratch, plan, work, c_v, c_m)
         if solve_blocks(plan, work.values, work.right) != SOLVED:
             return NOT_BALANCED, iteration, evaluations
+        foresee(model, state, plan, work.axial, work.damper, c_v, work.pulled, work.linear, work.right, work.next)
+        copy_tensions(work.foreseen, work.last)
         share = 1.0
         apply(model, state, plan, work, 1.0, c_v, c_m, c_a)
         for search in range(SEARCHES + 1):
+            blend(work.last, work.next, share, work.foreseen)
             load_at_end(model, state, scratch, work)
-            largest, new = out_of_balance(model, state, scratch, plan, work.left)
+            largest = out_of_balance(model, state, scratch, plan, work.balance)
+            new = mixed_merit(model, state, plan, work.axial, work.damper, work.foreseen, work.linear, work.balance, work.left)
             evaluations += 1
-            if new <= WORSE * merit or search == SEARCHES:
+            if largest <= TOLERANCE or new <= (WORSE if iteration < BOLD else 1.0) * merit or search == SEARCHES:
                 break
             share *= 0.5
             apply(model, state, plan, work, -share, c_v, c_m, c_a)
         merit = new
         for three in range(work.right.shape[0]):
             for k in range(3):
-                work.right[three, k] = work.left[three, k]
-    return (NEWTON_DONE if largest <= TOLERANCE else NOT_BALANCED), MOST_ITERATIONS, evaluations
+                work.right[three, k] = work.balance[three, k]
+    return (NEWTON_DONE if largest <= tolerance else NOT_BALANCED), MOST_ITERATIONS, evaluations

@@ -45,7 +45,7 @@ def _own_residual(state, plan, k, right):
 
 @routine
 def out_of_balance(model, state, scratch, plan, right):
-    """Fill right (T, 3), N and N m; returns its largest norm and the root of the sum of its squares, both over `plan.scale`."""
+    """Fill right (T, 3), N and N m; returns its largest norm over `plan.scale`."""
     for k in range(plan.own_node.size):
         _own_residual(state, plan, k, right)
     if model.free_points.size + model.rigid.mass.size > 0:
@@ -77,7 +77,7 @@ def out_of_balance(model, state, scratch, plan, right):
         square = dot(r, r) / plan.scale[three] ** 2
         total += square
         largest = max(largest, square)
-    return np.sqrt(largest) if total < np.inf else np.inf, np.sqrt(total)
+    return np.sqrt(largest) if total < np.inf else np.inf
 
 
 @routine

@@ -45,6 +45,8 @@ class Plan(NamedTuple):
     turn_three: np.ndarray  # (B,)
     rider: np.ndarray  # (R,) nodes
     rider_part: np.ndarray  # (R,)
+    rider_of: np.ndarray  # (n,) index in `rider`, or NOWHERE
+    part_moves: np.ndarray  # (B,) 0 for a pinned one, which only turns
     # handing on what riding nodes have gathered, (X,)
     source: np.ndarray
     target: np.ndarray
@@ -137,6 +139,8 @@ def make_topology(model, state, force_scale):
         turn_three=ordered(where + 1),
         rider=rider,
         rider_part=part,
+        rider_of=np.where(virtual >= 0, virtual - count, NOWHERE),
+        part_moves=(model.rigid.pin < 0).astype(np.int64),
         source=found["source"],
         target=found["target"],
         left=found["left"],
