@@ -20,6 +20,8 @@ LEAD = 1.0 / 3.0  # of a window: the motion swells, nothing is compared
 CHUNK = 0.02  # s of CPU time between two pauses
 LEAST_SAMPLES = 30  # of a window
 LEAST_ORDER, MOST_ORDER = 1.0, 2.0  # what an observed order counts as, and what it is where there is no coarser mesh
+RUNS = 5.5  # what an estimate takes, in runs of the present settings: half and twice the mesh, each with the step that goes with it
+LEAST_SHARE = 0.1  # of a window that takes too long
 LEAST_SEGMENTS = 4  # of a line, for a coarser mesh that still says something
 
 
@@ -47,13 +49,14 @@ class Accuracy:
         return asdict(self)
 
 
-def estimate(scene, settings, times, poses, twists, lengths=None, released=(), pause=lambda cpu: None):
+def estimate(scene, settings, times, poses, twists, lengths=None, released=(), pause=lambda cpu: None, most_cpu=math.inf):
     """Accuracy of `Mooring(scene, **settings)` over a window of motion: times (k,) s, poses (k, 7), twists (k, 6).
 
     lengths: (lines,) m unstretched, None for the scene's; released: names of lines let go. pause(cpu): called now and then with the s of CPU time
-    spent since the last call. A window that cannot be solved gives an Accuracy that says why.
+    spent since the last call; most_cpu: s that it may take, about: of a window that would take longer the last part is taken, a tenth at least. A window that cannot be solved gives an Accuracy that says why.
     """
-    times, poses, twists = (np.array(rows, dtype=float) for rows in (times, poses, twists))
+    motion = times, poses, twists
+    times, poses, twists = (np.array(rows, dtype=float) for rows in motion)
     first = int(np.searchsorted(times, times[0] + LEAD * (times[-1] - times[0]))) if times.size else 0
     spent = _Spent(pause)
 
@@ -76,6 +79,10 @@ def estimate(scene, settings, times, poses, twists, lengths=None, released=(), p
         step = None if cheap else own.step_limit.dt
         compared = _words(own, step)
         mine = tension()
+        share = most_cpu / max(RUNS * spent.total, 1e-9)
+        if share < 1.0:
+            rows = slice(int((1.0 - max(share, LEAST_SHARE)) * times.size), None)
+            return estimate(scene, settings, *(values[rows] for values in motion), lengths, released, pause)
         finer = {**_mesh(settings, 2), "fidelity": "dynamic", "solver": own.solver, "dt": None if cheap else 0.5 * step}
         fine = tension(**finer)
         coarse = None
@@ -109,7 +116,7 @@ def _carried_on(coarse, own, fine):
         order, alike = np.full(own.shape[1], MOST_ORDER), np.ones(own.shape[1])
         if first is not None:
             before = part(first)
-            sizes = [np.maximum(np.sqrt((each**2).sum(axis=0)), 1e-300) for each in (before, change)]
+            sizes = [np.maximum(np.sqrt((each**2).sum(axis=0)), 1e-100) for each in (before, change)]
             order = np.clip(np.log2(sizes[0] / sizes[1]), LEAST_ORDER, MOST_ORDER)
             alike = np.maximum((before * change).sum(axis=0) / (sizes[0] * sizes[1]), 0.0)
         total += alike * change / (2.0**order - 1.0)

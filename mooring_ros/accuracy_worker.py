@@ -30,6 +30,7 @@ for stand_back in (lambda: os.nice(19), lambda: os.sched_setscheduler(0, os.SCHE
 from mooring_ros.accuracy_worker import main
 main()
 """
+MOST_CPU = 60.0  # s of CPU time of an estimate, about: 20 minutes at a share of 5 %
 BURST = 1.0  # s of CPU time that may be spent at once, so that the first estimate comes soon
 
 
@@ -105,7 +106,7 @@ def main():
             if not warm:
                 estimate(task.scene, task.settings, *_beginning(times, poses, twists))  # what is not compiled yet does not count
                 warm, throttle = True, Throttle(task.share)
-            found = estimate(task.scene, task.settings, *motion, pause=throttle).as_dict()
+            found = estimate(task.scene, task.settings, *motion, pause=throttle, most_cpu=MOST_CPU).as_dict()
         except Exception as error:  # noqa: BLE001  (whatever it is, the node says it and goes on)
             found = {"why": f"{type(error).__name__}: {error}"}
         try:

@@ -60,6 +60,7 @@ def test_lengths_and_released_lines_are_those_of_the_mooring():
     assert as_read.as_dict() | {"cpu": 0.0} == estimate(SCENES / "oc4.txt", {}, TIMES, poses, twists).as_dict() | {"cpu": 0.0}
     wound = estimate(SCENES / "oc4.txt", {}, TIMES, poses, twists, lengths - [3.0, 0.0, 0.0])
     let_go = estimate(SCENES / "oc4.txt", {}, TIMES, poses, twists, released=("line2",))
+    assert all(np.isfinite([found.mean, found.dynamic, found.peak]).all() for found in (as_read, wound, let_go))
     assert len({found.dynamic for found in (as_read, wound, let_go)}) == 3 and not wound.why and not let_go.why
 
 
@@ -85,3 +86,9 @@ def test_time_is_taken_in_small_parts():
     parts = []
     found = estimate(SCENES / "oc4.txt", {"refine": 4.0}, TIMES, poses, twists, pause=parts.append)
     assert sum(parts) == pytest.approx(found.cpu) and len(parts) > 5 and max(parts) < 0.5 * found.cpu
+
+
+def test_of_a_window_that_takes_too_long_the_last_part_is_taken():
+    poses, twists = motion()
+    found = estimate(SCENES / "oc4.txt", {"refine": 4.0}, TIMES, poses, twists, most_cpu=1e-3)
+    assert found.begin == pytest.approx(128.0, abs=0.2) and found.end == 130.0 and found.mean > 0.0  # a tenth of 30 s, its first third run-in
