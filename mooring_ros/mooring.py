@@ -586,14 +586,20 @@ class Mooring:
         return times.size
 
     def _linearised(self, pose):
-        """A LinearResponse about `pose`; the state stands in equilibrium there after it."""
-        response, state = linearise(
-            self._model,
-            pose,
-            lambda there: self._next_static_state(there)[0],
-            lambda there: self._statics.platform_stiffness(_copy(there), self._scratch),
-        )
-        state.clock[0] = self._state.clock[0]
+        """A LinearResponse about `pose`; the state stands in equilibrium there after it, or where it was when there is none."""
+        before = _copy(self._state)
+        try:
+            _assign(self._state, self._next_static_state(pose)[0])  # what is solved around it begins there
+            response, state = linearise(
+                self._model,
+                pose,
+                lambda there: self._next_static_state(there)[0],
+                lambda there: self._statics.platform_stiffness(_copy(there), self._scratch),
+            )
+        except MooringError:
+            _assign(self._state, before)
+            raise
+        state.clock[0] = before.clock[0]
         _assign(self._state, state)
         return response
 
