@@ -47,7 +47,7 @@ CASES = (
     Case("oc3_spar.txt", Sines(4.0, 2.0, 2.0, period=12.0, measured_periods=20.0), 1.0),
     Case("chalmers_33m.txt", Circle(0.2, 3.5, ramp_periods=2.0, measured_periods=8.0), 5.0, 100.0),
     Case("volturnus_s_semi_taut.txt", Sines(3.5, 2.0, 3.0, period=15.0, measured_periods=10.0), 2.0),
-    Case("lazy_wave.txt", Sines(4.0, 2.0, 3.0, period=12.0, measured_periods=10.0), 5.0),
+    Case("lazy_wave.txt", Sines(4.0, 2.0, 3.0, period=12.0, measured_periods=10.0), 10.0),
     Case("farm_100.txt", Sines(3.0, 2.0, 2.0, period=12.0, measured_periods=6.0), 3.0),
 )  # fmt: skip
 

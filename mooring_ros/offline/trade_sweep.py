@@ -24,6 +24,7 @@ SEARCH_MESH, SEARCH_STEP = 1.02, 1.2  # grid on which the goal is searched for
 WORTH = 0.04  # less gain than this is not run for
 SURE = 1.02  # times a predicted error that should be within the goal
 HOPEFUL, WORTH_HOPING, HOPES = 0.88, 0.15, 4  # times one that may be by chance, what it must save, and how often that is tried
+KEPT = 0.3  # of the time, for search and verifying
 ROUNDS = 10  # runs of the search, and of verifying the front
 PASSES = 4.0  # runs that one measurement takes
 
@@ -36,6 +37,7 @@ class Sweep:
         self._meshes = Meshes(runner.scene)
         self._least = goal.error / 2.0 if goal.error else max(0.2, 2.0 * float(reference.error.max()))  # per cent: no finer mesh is needed
         self.families, self._alone, self.left_out = [], [], []
+        self._kept = KEPT * max(left(), 0.0)  # s of CPU time, for what the predictions will ask for
 
     def explore(self):
         """Run what is needed; afterwards `results` has it."""
@@ -56,9 +58,10 @@ class Sweep:
             if not self._beaten(family):
                 self._along_meshes(family)
         self._default()
-        self._verify()
+        self._kept = 0.0
         if self._goal.error is not None or self._goal.budget is not None:
             self._search()
+        self._verify()
 
     @property
     def results(self):
@@ -85,7 +88,7 @@ class Sweep:
         if (factor, steps) in family.results:
             return family.results[factor, steps]
         setting = family.setting(factor, steps)
-        left = max(self._left(), 0.0)
+        left = max(self._left() - self._kept, 0.0)
         if expected is not None and PASSES * expected * self._window.duration > left:
             self.left_out.append((setting, f"would take about {PASSES * expected * self._window.duration:.3g} s of CPU time, {left:.3g} s are left"))
             return None
