@@ -14,6 +14,8 @@ BENCHMARKS = {
     "trade": "what mooring trade says of error and cost against the truth, on six scenes kept aside (ten minutes)",
     "trades": "the trade of speed for accuracy on twelve moorings, beside MoorDyn's and CableDyn's best (half an hour)",
     "closed_forms": "statics and platform stiffness against closed forms",
+    "extremes": "the battery of extremes beside MoorDyn, and ten thousand random scenes (an hour or two)",
+    "guard": "what the guard against blow-ups costs",
     "kernel_cost": "ns for one node and force evaluation, against a bare vector kernel",
     "growth": "cost per node from 60 to 150 000 nodes, and a thousand platforms in real time (three minutes)",
     "effects": "a scene without an effect against builds in which that effect's stage is removed (half an hour the first time: it compiles them)",
@@ -31,9 +33,9 @@ BENCHMARKS = {
     "fidelity": "the linear fidelity beyond its range, and the estimate of a mooring's error, against the truth (two minutes)",
     "node_latency": "the ROS 2 node: input stamp to wrench, against an empty echo node",
 }
-MODULES = {"node_latency": "latency_table"}  # where it is not the name itself
+MODULES = {"node_latency": "latency_table", "extremes": "extremes.report"}  # where it is not the name itself
 DOCS = Path(__file__).parent.parent / "docs"
-DOCUMENTS = tuple(DOCS / name for name in ("measurements.md", "physics.md", "trades.md", "trade.md", "growth.md", "fidelity.md"))
+DOCUMENTS = tuple(DOCS / name for name in ("measurements.md", "physics.md", "trades.md", "trade.md", "growth.md", "fidelity.md", "extremes.md"))
 
 
 def arguments(argv):

@@ -38,7 +38,7 @@ MOST_STRAIN = 1.0  # of a line in motion, or twice that of the settled one
 NOT_AS_LAID = "statics with friction from the lines as laid did not converge: they hold on to the bed where they lie without friction"
 SWINGS, PIECES = 40, 40  # how often lines may swing where the statics do not converge at once, and in how many pieces
 SWING_TIME, LONGER = 20.0, 1.2  # s, and by how much each swing is longer than the last one
-MOST_EFFORT = 5e8  # evaluations times nodes of all swings: some ten seconds
+MOST_EFFORT = 2e8  # evaluations times nodes of all swings: ten seconds at worst, of small scenes
 PARTS = (1, 4, 16)  # of a platform's move from sample to sample, in which the statics follow it
 STEP_EFFORT = 2e7  # evaluations times nodes of the swings in one step
 TOPPLES = 6  # equilibria that topple, one after the other, and swings to find the next
@@ -484,7 +484,8 @@ class Mooring:
             return best_state, best
         raise MooringError(
             f"the statics did not converge in {best.iterations} iterations: "
-            f"{best.residual:.3g} N out of balance, {best.tolerance:.3g} N asked for"
+            f"{best.residual:.3g} N out of balance, {best.tolerance:.3g} N asked for; "
+            "expected lines that can hold what hangs on them, and free points, rods and bodies nearer to where they come to rest"
         )
 
     def _standing(self, result, state, swings):

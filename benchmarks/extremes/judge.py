@@ -85,10 +85,11 @@ def finite(history):
 
 
 def action_and_reaction(mooring, history):
-    """Claims that the wrench is the sum of what the coupled parts hand over, and, where lines end at coupled points alone, of the lines' end forces."""
+    """Claims that the wrench is the sum of what the coupled parts hand over, and of the lines' end forces where lines end at coupled points alone."""
     scene = mooring.scene
-    scale = np.abs(history.wrench[:, :3]).max() + np.abs(history.fairlead_end_force).max() + np.abs(history.coupled_wrenches[:, :, :3]).max(initial=0.0)
-    missed = history.wrench[:, :3] - history.coupled_wrenches[:, :, :3].sum(axis=1)
+    handed_over = history.coupled_wrenches[:, :, :3]
+    scale = np.abs(history.wrench[:, :3]).max() + np.abs(history.fairlead_end_force).max() + np.abs(handed_over).max(initial=0.0)
+    missed = history.wrench[:, :3] - handed_over.sum(axis=1)
     claims = [claim("wrench less the sum of the coupled parts' forces", np.abs(missed).max(), 0.0, 1e-9, scale or 1.0)]
     coupled = {p.id for p in scene.points if p.kind == "coupled"}
     ends = [(line.end_a in coupled, line.end_b in coupled) for line in scene.lines]

@@ -122,7 +122,8 @@ class Draft:
         if self.with_chance(0.2):
             period = self.between(4.0, 14.0)
             height = self.between(0.0, 0.04) * min(1.56 * period**2, 5.0 * self.depth)
-            own["waves"] = Waves(str(rng.choice(["regular", "jonswap"])), height, period, self.between(0.0, 6.0), seed=int(rng.integers(1, 99)), components=20)
+            of, direction = str(rng.choice(["regular", "jonswap"])), self.between(0.0, 6.0)
+            own["waves"] = Waves(of, height, period, direction, seed=int(rng.integers(1, 99)), components=20)
         if self.with_chance(0.03) and "waves" not in own:
             own["water_density"] = 0.0
         return Environment(depth=self.depth, bed_slope=self.slope, bed_stiffness=self.power(4.0, 7.5), bed_damping=self.power(3.0, 6.0), **own)
@@ -130,8 +131,9 @@ class Draft:
     def scene(self):
         if self.with_chance(0.1):
             line = self.lines[self.rng.integers(len(self.lines))]
-            when = {"time": self.between(0.0, DURATION)} if self.with_chance(0.5) else {"tension": line.type.mass * G * self.depth * self.power(-1.0, 1.0)}
-            self.failures.append(Failure(1, line.end_b, (line.id,), **when))
+            weight = line.type.mass * G * self.depth
+            due = {"time": self.between(0.0, DURATION)} if self.with_chance(0.5) else {"tension": weight * self.power(-1.0, 1.0)}
+            self.failures.append(Failure(1, line.end_b, (line.id,), **due))
         return Scene(
             path="", text="", line_types=tuple(self.kinds), points=tuple(self.points), lines=tuple(self.lines), environment=self.environment(),
             rods=tuple(self.rods), rod_types=tuple(rod.type for rod in self.rods), bodies=tuple(self.bodies), failures=tuple(self.failures),
@@ -193,9 +195,8 @@ def buoy(draft):
     full = RHO * 0.25 * np.pi * diameter**2 * length
     middle = np.array([draft.depth * draft.between(0.3, 1.0) + 20.0, 0.0, -0.2 * length])
     ballast = full * draft.between(0.05, 0.7)
-    draft.bodies.append(
-        Body(1, FREE, tuple(map(float, middle)), mass=ballast, centre_of_gravity=(0.0, 0.0, -length * draft.between(0.2, 0.5)), inertia=(0.1 * ballast * length**2,) * 3)
-    )
+    low = (0.0, 0.0, -length * draft.between(0.2, 0.5))
+    draft.bodies.append(Body(1, FREE, tuple(map(float, middle)), mass=ballast, centre_of_gravity=low, inertia=(0.1 * ballast * length**2,) * 3))
     draft.rod(BODY, (0, 0, -0.5 * length), (0, 0, 0.5 * length), draft.rng.integers(1, 6), diameter, full * draft.between(0.05, 0.2) / length, 1)
     for k in range(draft.rng.integers(2, 4)):
         angle = 2.0 * np.pi * k / 3.0 + draft.between(-0.4, 0.4)
@@ -214,9 +215,8 @@ def clump_body(draft):
     middle = np.array([draft.depth * draft.between(0.2, 0.8), 0.0, 0.0])
     middle[2] = draft.bed(middle[0], 0.0) * draft.between(0.3, 0.9)
     mass = draft.load()
-    draft.bodies.append(
-        Body(1, FREE, tuple(map(float, middle)), mass=mass, centre_of_gravity=(0.0, 0.0, -0.2), inertia=(mass,) * 3, volume=mass / RHO * draft.between(0.1, 0.9))
-    )
+    own = {"mass": mass, "centre_of_gravity": (0.0, 0.0, -0.2), "inertia": (mass,) * 3, "volume": mass / RHO * draft.between(0.1, 0.9)}
+    draft.bodies.append(Body(1, FREE, tuple(map(float, middle)), **own))
     draft.line(anchor, draft.point(BODY, (1.0, 0.0, 0.0), body=1), there, middle + [1.0, 0.0, 0.0])
     for side in (-1.0, 1.0):
         own, here = np.array([-1.0, side, 0.0]), np.array([0.0, 0.1 * draft.depth * side, -0.02 * draft.depth])
