@@ -55,11 +55,12 @@ class Fleet:
         self._members, self._packed = np.zeros(count, dtype=np.int64), [None] * count
         self._shown = np.zeros((1, count, 6)), np.zeros((1, lines, 2))
         self._clocks, self._status = np.zeros(count), np.zeros((count, 2), dtype=np.int64)
-        self._alone = [m for m, mooring in enumerate(self.moorings) if (mooring.fidelity, mooring.solver) != ("dynamic", "explicit")]
+        self._alone = [m for m, mooring in enumerate(self.moorings) if not _served(mooring)]
+        self._together = sorted(set(range(count)) - set(self._alone))
         self._pool = ThreadPoolExecutor(self.threads - 1) if self.threads > 1 else None
         self._share_work_space()
         self._pack()
-        self._stepper = run_address(self._packed[0], self._scratches[0][0])
+        self._stepper = run_address(self._packed[self._together[0]], self._scratches[0][0]) if self._together else 0
 
     def __len__(self):
         return len(self.moorings)
@@ -74,9 +75,11 @@ class Fleet:
         poses = numbers(poses, "poses")
         poses = self._of_all(np.tile(poses, (len(self), 1)) if poses.shape == (7,) else poses, 7, "poses")
         done = {}
-        for mooring, pose in zip(self.moorings, poses):
-            state = mooring._state
-            key = id(mooring._model), mooring.fidelity, mooring.solver, pose.tobytes(), state.end_point.tobytes(), state.failed.tobytes()
+        for m in self._alone:
+            self.moorings[m].settle(poses[m], time)
+        for m in self._together:
+            mooring, pose, state = self.moorings[m], poses[m], self.moorings[m]._state
+            key = id(mooring._model), pose.tobytes(), state.end_point.tobytes(), state.failed.tobytes()
             if key not in done:
                 mooring.settle(pose, time)
                 done[key] = mooring, mooring.snapshot()
@@ -137,16 +140,18 @@ class Fleet:
     def _share_work_space(self):
         """One work space for each thread and shape of moorings."""
         kinds, self._kinds, self._scratches = {}, np.zeros(len(self), dtype=np.int64), []
-        for m, mooring in enumerate(self.moorings):
+        for m in self._together:
+            mooring = self.moorings[m]
             shape = tuple(array.shape for array in mooring._scratch)
             self._kinds[m] = kinds.setdefault(shape, len(kinds))
             if self._kinds[m] == len(self._scratches):
                 self._scratches.append([new_scratch(mooring._model) for _ in range(self.threads)])
-        self._spaces = np.array([[space.address for space in spaces] for spaces in self._scratches]).T.copy()
+        self._spaces = np.array([[space.address for space in spaces] for spaces in self._scratches], dtype=np.int64).T.copy()
 
     def _pack(self):
         """Pack what has been built again since the last call: a winch makes a new model."""
-        for m, mooring in enumerate(self.moorings):
+        for m in self._together:
+            mooring = self.moorings[m]
             if self._models[m] is not mooring._model:
                 self._models[m] = mooring._model
                 self._packed[m] = Member(mooring._model, mooring._state, mooring._table, mooring._report, mooring._readings)
@@ -156,7 +161,7 @@ class Fleet:
         return shaped(values, (len(self), width), name, "a row for each mooring")
 
     def _need_settled(self):
-        waiting = [m for m, mooring in enumerate(self.moorings) if not mooring._settled]
+        waiting = [m for m in self._together if not self.moorings[m]._settled]
         if waiting:
             raise ValueError(f"moorings {_some(waiting)} have not been settled; call settle(poses) first")
         self._pack()
@@ -164,7 +169,10 @@ class Fleet:
     def _run(self, times, poses, twists, wrench, tension):
         """Advance all; poses (k, moorings, 7), twists (k, moorings, 6), wrench and tension as in core.fleet."""
         self._need_settled()
-        read_clocks(self._members, self._clocks)
+        if self._alone:
+            self._clocks[:] = [mooring.time for mooring in self.moorings]
+        else:
+            read_clocks(self._members, self._clocks)
         if not (np.isfinite(times).all() and (np.diff(times) > 0.0).all() and times[0] > self._clocks.max()):
             raise ValueError(f"times must be finite, grow, and be after the present one, {self._clocks.max()!r} s; the first is {times[0]!r} s")
         self._status[:, 0] = DONE
@@ -214,7 +222,7 @@ class Fleet:
             except MooringError as error:
                 failed[m] = j, str(error)
                 return
-            wrench[j], tension[j] = mooring.wrench, mooring._readings.tension[0]
+            wrench[j], tension[j, :, 0], tension[j, :, 1] = mooring.wrench, mooring.anchor_tension, mooring.fairlead_tension
 
     def _why(self, m, time, pose, twist):
         """What mooring m has to say of a step that it refuses: it is asked once more."""
@@ -226,11 +234,22 @@ class Fleet:
 
     def _collected(self):
         self._need_settled()
-        collect(self._members, self.first_line, *self._shown)
+        wrench, tension = self._shown
+        if self._alone:
+            wrench[0] = [mooring.wrench for mooring in self.moorings]
+            for side, name in enumerate(("anchor_tension", "fairlead_tension")):
+                tension[0, :, side] = np.concatenate([getattr(mooring, name) for mooring in self.moorings])
+        else:
+            collect(self._members, self.first_line, wrench, tension)
         return self._shown
 
     def _history(self, times, wrench, tension, done):
         return FleetHistory(times[:done].copy(), wrench[:done], tension[:done, :, 0], tension[:done, :, 1], self.first_line.copy())
+
+
+def _served(mooring):
+    """Whether the stepping kernel does all that a step of `mooring` does."""
+    return type(mooring) is Mooring and (mooring.fidelity, mooring.solver) == ("dynamic", "explicit")
 
 
 def _built(members, options):

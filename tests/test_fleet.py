@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from scenes_in_code import HERE, SCENES, anchored, line_type, surge_heave
+from scenes_in_code import COUPLED, FIXED, HERE, SCENES, anchored, line_type, scene, surge_heave
 
-from mooring_ros import Fleet, Mooring, MooringError
+from mooring_ros import Fleet, Mooring, MooringError, blocks
 from mooring_ros.scene import load_scene
 
 CHAIN = line_type(0.1, 100.0, 1e8, -0.5, drag=1.6, added=1.0)
@@ -33,8 +33,8 @@ def everything():
 
 @pytest.mark.parametrize("threads", [1, 3])
 def test_a_fleet_has_the_bits_of_single_moorings_in_steps_and_in_runs(threads):
-    scene = chain()
-    scenes = [scene, chain(segments=14), scene, scene, chain(length=230.0)]
+    same = chain()
+    scenes = [same, chain(segments=14), same, same, chain(length=230.0)]
     poses, twists = motions(len(scenes))
     fleet = Fleet(scenes, threads=threads)
     fleet.settle(HERE)
@@ -98,12 +98,12 @@ def test_twins_move_by_themselves():
 
 
 def test_a_mooring_that_cannot_go_on_stays_and_is_named_while_the_others_go_on():
-    scene = chain()
-    fleet = Fleet([scene] * 4, threads=2)
+    same = chain()
+    fleet = Fleet([same] * 4, threads=2)
     fleet.settle(HERE)
     poses, twists = motions(4)
     poses[30:, 2, 0] += 1e4
-    single = Mooring(scene)
+    single = Mooring(same)
     single.settle(HERE)
     with pytest.raises(MooringError) as alone:
         single.run(TIMES, poses[:, 2].copy(), twists[:, 2].copy())
@@ -137,8 +137,8 @@ def test_bad_input_leaves_all_as_they_were():
 
 
 def test_winches_and_releases_of_members_act_in_the_fleet():
-    scene = chain()
-    fleet, single = Fleet([scene] * 2), Mooring(scene)
+    same = chain()
+    fleet, single = Fleet([same] * 2), Mooring(same)
     fleet.settle(HERE)
     single.settle(HERE)
     for mooring in (fleet[1], single):
@@ -154,16 +154,28 @@ def test_winches_and_releases_of_members_act_in_the_fleet():
     assert fleet[0].unstretched_length == 220.0
 
 
-def test_moorings_of_other_fidelities_go_along():
-    fleet = Fleet([Mooring(chain(), fidelity=fidelity) for fidelity in ("dynamic", "quasi_static", "linear")], threads=2)
+def test_moorings_that_are_not_stepped_by_the_kernel_go_along(monkeypatch):
+    monkeypatch.setattr(blocks, "LARGE", 30)
+    monkeypatch.setattr(blocks, "BLOCK", 10)
+    two = scene([(FIXED, (-200.0, 0.0, -60.0)), (COUPLED, (0.0, 0.0, -5.0))] * 2, [(CHAIN, 1, 2, 220.0, 15), (CHAIN, 3, 4, 225.0, 15)], depth=60.0)
+    kinds = [{}, {"fidelity": "quasi_static"}, {"fidelity": "linear"}, {"solver": "implicit"}]
+    members = [lambda kind=kind: Mooring(chain(), **kind) for kind in kinds] + [lambda: Mooring(two)]
+    fleet = Fleet([make() for make in members], threads=2)
+    assert [type(mooring) for mooring in fleet.moorings] == [Mooring] * 4 + [blocks.BlockMooring]
+    with pytest.raises(ValueError, match="settle"):
+        fleet.step(TIMES[0], np.tile(HERE, (5, 1)), np.zeros((5, 6)))
     fleet.settle(HERE)
-    poses, twists = motions(3)
+    poses, twists = motions(5)
     history = fleet.run(TIMES[:5], poses[:5], twists[:5])
-    for m, fidelity in enumerate(("dynamic", "quasi_static", "linear")):
-        single = Mooring(chain(), fidelity=fidelity)
+    for m, make in enumerate(members):
+        single = make()
         single.settle(HERE)
+        lines = slice(fleet.first_line[m], fleet.first_line[m + 1])
         for j in range(5):
             single.step(TIMES[j], poses[j, m], twists[j, m])
             assert (history.wrench[j, m] == single.wrench).all()
-            assert (history.fairlead_tension[j, m] == single.fairlead_tension).all()
+            assert (history.fairlead_tension[j, lines] == single.fairlead_tension).all()
         assert (fleet.wrenches[m] == single.wrench).all()
+        assert (fleet.anchor_tension[lines] == single.anchor_tension).all()
+    with pytest.raises(ValueError, match="after the present one"):
+        fleet.step(TIMES[2], poses[2], twists[2])
