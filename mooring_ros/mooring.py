@@ -409,7 +409,7 @@ class Mooring:
     def energy(self):
         """core.energy.Energy, J: kinetic, strain, bending, potential and their total, after a settle or a dynamic step."""
         self._need_settled()
-        lead = 0.5 * self._state.settings[1] if self._table[0, 0] == LEAPFROG and self.solver == "explicit" else 0.0  # its velocities stand half a step behind
+        lead = 0.5 * self._state.settings[1] if self._table[0, 0] <= LEAPFROG and self.solver == "explicit" else 0.0  # its velocities stand half a step behind
         return energy(self._model, self._state, lead)
 
     @property
@@ -682,6 +682,7 @@ def _bytes(model):
 
 def _halt(state):
     state.velocity[:] = 0.0
+    state.lead[:] = 0.0
     state.parts[:, 7:] = 0.0
 
 

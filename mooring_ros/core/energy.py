@@ -27,13 +27,13 @@ class Energy(NamedTuple):
 
 
 def energy(model, state, lead=0.0):
-    """Energy after an evaluation; `lead` (s): how far the velocities stand behind, half a step of leapfrog."""
+    """Energy after an evaluation; `lead` (s): how far the parts' velocities stand behind, half a step of leapfrog."""
     return Energy(_kinetic(model, state, lead), _strain(model, state), _bending(model, state), _potential(model, state))
 
 
 def _kinetic(model, state, lead):
     size = model.size
-    velocity = state.velocity[:, :size] + lead * state.acceleration[:, :size]
+    velocity = state.velocity[:, :size] + state.lead[:, :size]
     tangent = state.tangent[:, :size] + state.tangent[:, 1 : size + 1]
     tangent = tangent / np.sqrt(np.maximum((tangent**2).sum(axis=0), TINY))
     normal = model.mass[:size] + state.wet[:size] * model.added_normal[:size]

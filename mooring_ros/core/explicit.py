@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from .axial import pull_implicitly, transverse_step
 from .cache import kernel, paragraph, routine, stage
 from .failures import part
 from .forces import evaluate, evaluate_in_place
@@ -9,10 +10,10 @@ from .ground import commit_grip
 from .guard import EVEN, FASTEST, IMPLAUSIBLE, TORN, UNEVEN, copy_row, keep_tension, overstretched, recall, runaway, save, speed_of_ends, tension_jumped
 from .packed import entry
 from .platform import start_motion
-from .points import place_coupled_points, place_staggered_coupled_points, speed_coupled_points
+from .points import carry_ends, place_coupled_points, place_staggered_coupled_points, speed_coupled_points
 from .readings import show
 from .rigid import copy_parts, euler_parts, mix_parts
-from .schemes import LEAPFROG
+from .schemes import AXIAL, LEAPFROG
 from .seabed import set_bed_relief
 from .surface import all_wet, reaches_above
 from .waves import copy_window, outdated, refresh
@@ -23,22 +24,27 @@ CHUNK = 64  # largest steps between two looks at the guard
 MOST_STEPS = 1e7  # largest steps in an interval: some minutes of work
 FINEST = 64.0  # times finer than the largest step a chunk is tried, before its interval is given up
 JUMP = 0.1  # of the tension and the line's weight: the change of a tension, from Euler steps to their mean, that is too much
+AXIAL_JUMP = 0.15  # the same for the scheme `AXIAL`, whose steps are long
 MOST_REFINED = 8.0  # times finer steps for that cause; a jump that stays is one of the line, not of the scheme
 REFINED_STEPS = 40.0  # largest steps for which a finer step is kept
 DRAG_SAFETY = 0.9  # of the Euler step at which drag would turn a velocity round
+STAGGERED_DRAG_SAFETY = 0.45  # ... with velocities that are led on by half a step
 SURFACE_MARGIN, LIKELY_SPEED = 1.0, 5.0  # m, m/s: how far below the surface nodes may be before wet shares matter in a chunk
 
 
 @stage
-def choose_step(table, span, refined):
-    """(row of the table, number of steps) with the fewest evaluations over `span` (s); of equals, the shorter steps.
+def choose_step(table, span, refined, transverse):
+    """(row of the table, number of steps) with the least cost over `span` (s); of equals, the shorter steps.
 
-    Steps are at most those of the table over `refined`.
+    Steps are at most those of the table over `refined`, and for the scheme `AXIAL` those that the transverse waves allow (s).
     """
     best, best_steps, best_cost = 0, 0.0, np.inf
     for row in range(table.shape[0]):
-        steps = max(np.ceil(span * refined / table[row, 1] - 1e-9), 1.0)
-        cost = steps * table[row, 0]
+        largest = table[row, 1]
+        if table[row, 0] == AXIAL:
+            largest = min(largest, transverse)
+        steps = max(np.ceil(span * refined / largest - 1e-9), 1.0)
+        cost = steps * table[row, 3]
         if cost < best_cost:
             best, best_steps, best_cost = row, steps, cost
     return best, int(best_steps)
@@ -47,7 +53,7 @@ def choose_step(table, span, refined):
 @stage
 def adapt(model, state, euler_step, lag):
     """Set what the evaluations depend on from the Euler step (s) of which the scheme is made, and the time by which its velocities stand back (s)."""
-    state.settings[0] = euler_step / DRAG_SAFETY
+    state.settings[0] = euler_step / (STAGGERED_DRAG_SAFETY if lag > 0.0 else DRAG_SAFETY)
     state.settings[1] = euler_step
     state.settings[8] = lag
     set_bed_relief(model, state, 0.0 if model.ground.on else euler_step)  # ground.py takes the contact implicitly by itself
@@ -77,6 +83,14 @@ def start_step(model, state, scratch):
     if state.parts.size > 0:
         copy_parts(state.parts, scratch.parts)
     copy_row(state.creep, scratch.creep)
+
+
+@stage
+def stand_together(model, state):
+    """Velocities of the schemes of several stages belong to the same time as the places."""
+    for k in range(3):
+        for i in range(model.size):
+            state.lead[k, i] = 0.0
 
 
 @stage
@@ -117,10 +131,12 @@ def last_stage(model, state, scratch, h, stages):
 
 @stage
 def leapfrog_stage(model, state, h):
-    position, velocity, acceleration = state.position, state.velocity, state.acceleration
+    position, velocity, acceleration, lead = state.position, state.velocity, state.acceleration, state.lead
     for k in range(3):
         for i in range(model.size):
-            velocity[k, i] += h * acceleration[k, i]
+            gain = h * acceleration[k, i]
+            lead[k, i] = 0.5 * gain
+            velocity[k, i] += gain
             position[k, i] += h * velocity[k, i]
     euler_others(model, state, h, True)
 
@@ -151,22 +167,27 @@ def let_go(model, state, scratch, time):
 
 
 @paragraph
-def take_steps(model, state, scratch, evaluations, h, steps, start, ds):
+def take_steps(model, state, scratch, scheme, h, steps, start, ds):
     """`steps` steps of h (s) from `start` of the interval, ds of it each; accelerations must be those of the current state.
 
     Returns the worst of `tension_jumped` from the Euler steps of a step to their mean, or in leapfrog's case from one step to the next:
     lines that snap from slack to taut pump energy out of long steps.
     """
-    worst = EVEN
+    worst, evaluations = EVEN, max(scheme, 1)
+    if evaluations > 1:
+        stand_together(model, state)
     for j in range(steps):
-        if evaluations != LEAPFROG:
+        if evaluations > 1:
             start_step(model, state, scratch)
         end = start + (j + 1) * ds
         for k in range(evaluations):
-            if evaluations == LEAPFROG:
+            if evaluations == 1:
                 keep_tension(model, state, scratch)
                 leapfrog_stage(model, state, h)
                 place_staggered_coupled_points(model, state, scratch.motion, end, h)
+                if scheme == AXIAL:
+                    carry_ends(model, state)
+                    pull_implicitly(model, state, scratch, h)
             elif k < evaluations - 1:
                 part = 1.0 / (evaluations - 1)
                 euler_stage(model, state, h * part)
@@ -178,7 +199,7 @@ def take_steps(model, state, scratch, evaluations, h, steps, start, ds):
             if k == evaluations - 1:
                 state.settings[6] = state.clock[0] + end * scratch.motion[7, 0] + 0.5 * h  # the middle of the next step, which begins with this evaluation
             evaluate(model, state, scratch, state.settings[0], state.settings[1], state.settings[2] != 0.0, k == evaluations - 1)
-        worst = max(worst, tension_jumped(model, state, scratch, JUMP))
+        worst = max(worst, tension_jumped(model, state, scratch, AXIAL_JUMP if scheme == AXIAL else JUMP))
         if state.grip.shape[1] > 0:
             remember_grip(model, state, scratch)
         if model.failures.point.size > 0:
@@ -227,15 +248,16 @@ def advance(model, state, scratch, table, time, pose, twist, report):
                 looked_ahead = True
             refresh(model.sea, now, now + span, model.size, state.position, state.velocity, scratch.wave_work, state.window_times, state.window)
         while True:
-            row, steps = choose_step(table, span, refined)
+            transverse = transverse_step(model, state) if table[0, 0] == AXIAL else np.inf
+            row, steps = choose_step(table, span, refined, transverse)
             h = span / steps
-            adapt(model, state, h / table[row, 2], 0.5 * h if table[row, 0] == LEAPFROG else 0.0)
+            adapt(model, state, h / table[row, 2], 0.5 * h if table[row, 0] <= LEAPFROG else 0.0)
             look_at_surface(model, state, SURFACE_MARGIN + model.bulk + span * max(LIKELY_SPEED, ends))
             if again:
                 settings[6] = state.clock[0] + start * duration + 0.5 * h
                 evaluate_again(model, state, scratch)
             tensions = take_steps(model, state, scratch, int(table[row, 0]), h, steps, start, 1.0 / (steps * chunks))
-            evaluations_taken += steps * table[row, 0]
+            evaluations_taken += steps * max(table[row, 0], 1.0)
             wild = runaway(model, state, fastest)
             again = refined < FINEST if wild or tensions == TORN else tensions == UNEVEN and refined < MOST_REFINED
             if not again:

@@ -65,6 +65,7 @@ def save(model, state, scratch, place):
         for i in range(model.mass.size):
             copy[k, i] = state.position[k, i]
             copy[3 + k, i] = state.velocity[k, i]
+            copy[6 + k, i] = state.lead[k, i]
     copy_parts(state.parts, scratch.saved_parts[place])
     copy_row(state.creep, scratch.saved_creep[place])
     copy_rows(state.grip, scratch.saved_grip[place])
@@ -80,6 +81,7 @@ def recall(model, state, scratch, place):
         for i in range(model.mass.size):
             state.position[k, i] = copy[k, i]
             state.velocity[k, i] = copy[3 + k, i]
+            state.lead[k, i] = copy[6 + k, i]
     copy_parts(scratch.saved_parts[place], state.parts)
     copy_row(scratch.saved_creep[place], state.creep)
     copy_rows(scratch.saved_grip[place], state.grip)

@@ -26,6 +26,8 @@ from .sea import Sea, build_sea, fastest_water
 from .waves import WINDOW_ROWS, WORK_SIZE
 
 LANES = 8  # nodes: a whole number of vectors
+AXIAL_WORK = 13  # rows of work space of axial.py
+MOST_JOINTS = 600  # free points that axial.py solves for together
 LOOSE = -1  # an end that nothing holds any more
 
 
@@ -82,6 +84,7 @@ class Model(NamedTuple):
     point_diameter: np.ndarray  # m, of the sphere of its volume
     free_points: np.ndarray  # indices of the free ones
     coupled_points: np.ndarray  # ... and of the coupled ones
+    free_index: np.ndarray  # row of a free point among the free ones, or -1
     output_of: np.ndarray  # the output that it belongs to, or -1
     # outputs: coupled points, rods and bodies, (O,)
     output_point: np.ndarray  # internal point at which its wrench is given
@@ -114,6 +117,7 @@ class State(NamedTuple):
     parts_reaction: np.ndarray  # (B, 6), N and N m of pinned parts on what carries their origin
     position: np.ndarray  # (3, n), m
     velocity: np.ndarray  # (3, n), m/s
+    lead: np.ndarray  # (3, n), m/s: what velocities gain from the half step before the places to their time, where a scheme staggers them
     acceleration: np.ndarray  # (3, n), m/s^2
     filtered: np.ndarray  # (3, n), m/s^2: acceleration that carries the implicit steps (implicit_newton.py)
     parts_filtered: np.ndarray  # (B, 6), m/s^2, rad/s^2
@@ -148,7 +152,11 @@ class Scratch(NamedTuple):
     velocity: np.ndarray  # (3, n)
     wet_segment: np.ndarray  # (n,)
     wet_moment: np.ndarray  # (n,)
-    saved: np.ndarray  # (2, 6, n): position and velocity at the start of the interval and of the chunk
+    saved: np.ndarray  # (2, 9, n): position, velocity and lead at the start of the interval and of the chunk
+    axial: np.ndarray  # (13, n): work of axial.py
+    joints: np.ndarray  # (3 F, 3 F): joints.py, with F free points
+    envelope: np.ndarray  # (3 F,)
+    joint_change: np.ndarray  # (3 F,), m/s
     tension: np.ndarray  # (n,), before a step's last stage
     motion: np.ndarray  # (8, 3): platform.start_motion
     parts: np.ndarray  # (B, 13), of a step's start
@@ -228,6 +236,7 @@ def build(scene, segments=None, layout=None):
         point_diameter=np.array(diameters, dtype=float),
         free_points=np.flatnonzero(kinds == POINT_FREE),
         coupled_points=coupled,
+        free_index=np.where(kinds == POINT_FREE, np.cumsum(kinds == POINT_FREE) - 1, -1),
         output_of=np.array([place.attachment for place in layout.points], dtype=np.int64),
         output_point=np.array(layout.output_point, dtype=np.int64),
         output_inertia=np.array(layout.output_inertia, dtype=float).reshape(-1, 3, 3),
@@ -393,6 +402,7 @@ def new_state(model, end_point):
         parts_reaction=np.zeros((parts, 6)),
         position=position,
         velocity=np.zeros((3, n)),
+        lead=np.zeros((3, n)),
         acceleration=np.zeros((3, n)),
         force=np.zeros((3, n)),
         filtered=np.zeros((3, n)),
@@ -423,12 +433,17 @@ def new_state(model, end_point):
 def new_scratch(model):
     n, parts = model.mass.size, model.rigid.mass.size
     creeping, gripping, waving = _sizes(model)
+    joints = 3 * model.free_points.size if model.free_points.size <= MOST_JOINTS else 0
     return Scratch(
         position=np.zeros((3, n)),
         velocity=np.zeros((3, n)),
         wet_segment=np.ones(n),
         wet_moment=np.zeros(n),
-        saved=np.zeros((2, 6, n)),
+        saved=np.zeros((2, 9, n)),
+        axial=np.zeros((AXIAL_WORK, n)),
+        joints=np.zeros((joints, joints)),
+        envelope=np.zeros(joints, dtype=np.int64),
+        joint_change=np.zeros(joints),
         tension=np.zeros(n),
         motion=np.zeros((8, 3)),
         parts=np.zeros((parts, 13)),

@@ -16,7 +16,8 @@ import math
 
 import numpy as np
 
-LEAPFROG = 1  # a scheme is named by its number of evaluations a step
+AXIAL, LEAPFROG = 0, 1  # the others are named by their number of evaluations a step
+AXIAL_COST = 2.0  # of an evaluation: what one and the solve along the lines take together
 SSP = tuple(range(2, 9))
 SAFETY = 0.95  # of the stable step
 
@@ -38,8 +39,13 @@ def stable_step(scheme, omega, zeta):
 
 
 def step_table(limits, largest_step):
-    """(schemes, 3) table for the kernel: evaluations a step, largest step (s), Euler steps in a step.
+    """(schemes, 4) table for the kernel: scheme, largest step (s), Euler steps in a step, cost in evaluations.
 
     `limits`: stable step (s) of each scheme that may be used; `largest_step` (s) caps them all.
     """
-    return np.array([(float(scheme), min(SAFETY * limit, largest_step), max(scheme - 1.0, 1.0)) for scheme, limit in limits.items()])
+    return np.array(
+        [
+            (float(scheme), min(SAFETY * limit, largest_step), max(scheme - 1.0, 1.0), AXIAL_COST if scheme == AXIAL else float(scheme))
+            for scheme, limit in sorted(limits.items())
+        ]
+    )

@@ -11,14 +11,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .friction import NO_FRICTION
 from .hinges import stiffness_rows
 from .layout import POINT_COUPLED, POINT_FIXED
-from .model import LOOSE
+from .model import LOOSE, MOST_JOINTS
 from .ropes import rope_limits
-from .schemes import LEAPFROG, SAFETY, SSP, stable_step
+from .schemes import AXIAL, LEAPFROG, SAFETY, SSP, stable_step
 
 REFERENCE_SPEED = 2.0  # m/s, at which the drag's own limit is stated
 UNDAMPED = 0.15  # rad: undamped modes grow by 0.012 of its fourth power in a step of the schemes of several stages: 1e-5
+LONGEST = 4.0  # times the step that is right for accuracy: the longest of the scheme `AXIAL` that is taken when it is asked for
+PACE, PASSING = 0.004, 0.11  # of sqrt(L/g) and of L/c, for the scheme `AXIAL`: 0.2 % of the dynamic tension on the OC4 chains
 ACCURACY = 0.66  # of count / w = L / (2 c): 0.3 % of the dynamic tension on the OC4 chains (docs/measurements.md)
 
 
@@ -66,18 +69,64 @@ def step_limit(scene, model, end_point, dt=None):
             limits[name] = min(limits[name], step)
     undamped = scene.environment.water_density == 0.0 or any(line.type.drag_normal == 0.0 for line in scene.lines)
     best_ssp = max(axial[s] / s for s in SSP)
-    if undamped or axial[LEAPFROG] >= best_ssp:
+    accuracy, by = limits["axial accuracy"], "accuracy of the first axial mode"
+    if axial_waves_stand_alone(model):
+        usable = {AXIAL: limits["bending"], LEAPFROG: axial[LEAPFROG]}
+        limits["pace of the lines"], limits["passing of an axial wave"] = paces(scene, model, end_point)
+        if undamped or scene.environment.gravity == 0.0:
+            accuracy, by = 0.0, f"axial waves in {worst}, which nothing damps"
+        else:
+            accuracy, by = min((limits[name], name) for name in ("pace of the lines", "passing of an axial wave"))
+    elif undamped or axial[LEAPFROG] >= best_ssp:
         usable = {LEAPFROG: axial[LEAPFROG]}
     else:
         usable = {s: axial[s] for s in SSP}
     stable = SAFETY * max(usable.values())
-    accurate = max(limits["axial accuracy"], SAFETY * min(usable.values()))
-    if dt is not None and dt < min(stable, accurate):
+    few = LEAPFROG in usable and not undamped  # steps of a few segments may be stable and yet not follow their first mode
+    accurate = accuracy if few and accuracy > 0.0 else max(accuracy, SAFETY * min(usable.values()))
+    longest = min(stable, LONGEST * accurate if AXIAL in usable else accurate)
+    if dt is not None and dt < longest:
         return StepLimit(float(dt), "dt", limits, usable)
+    if dt is not None:
+        accurate = longest
     if accurate < stable:
-        return StepLimit(accurate, "accuracy of the first axial mode", limits, usable)
+        return StepLimit(accurate, by, limits, usable)
     what = "bending" if limits["bending"] < limits["axial"] else "axial"
     return StepLimit(stable, f"stability of {what} waves in {worst}", limits, usable)
+
+
+def axial_waves_stand_alone(model):
+    """Whether the axial forces of the lines move nothing but their nodes and free points, and are those of EA and BA: what the scheme `AXIAL` needs.
+
+    Friction answers to what pulls on a node within the step, and is not part of the solve.
+    """
+    return not (model.ground.law != NO_FRICTION or model.ground.on and model.free_points.size or model.free_points.size > MOST_JOINTS or model.rigid.mass.size or model.ropes.curve_first.size or model.ropes.kelvin_first.size)
+
+
+def paces(scene, model, end_point):
+    """Steps (s) of the scheme `AXIAL` that follow the lines: PACE sqrt(L/g), and PASSING of the time in which an axial wave passes through them.
+
+    The least of the groups of lines that are joined; L is the length of the longest of a group, the time the sum over its lines.
+    """
+    owner, group = {}, list(range(len(scene.lines)))
+
+    def root(line):
+        while group[line] != line:
+            line = group[line]
+        return line
+
+    for k in range(len(scene.lines)):
+        for p in end_point[2 * k : 2 * k + 2]:
+            if p != LOOSE and model.point_kind[p] not in (POINT_FIXED, POINT_COUPLED):
+                holder = ("part", int(model.rigid.part[p])) if model.rigid.part[p] >= 0 else ("point", int(p))
+                group[root(k)] = root(owner.setdefault(holder, k))
+    longest, passing, gravity = {}, {}, scene.environment.gravity
+    for k, line in enumerate(scene.lines):
+        g = root(k)
+        longest[g] = max(longest.get(g, 0.0), line.length)
+        passing[g] = passing.get(g, 0.0) + line.length * math.sqrt(line.type.mass / line.type.stiffness)
+    pace = PACE * math.sqrt(min(longest.values()) / gravity) if gravity > 0.0 else math.inf
+    return pace, PASSING * min(passing.values())
 
 
 def bending_frequencies(model, end_point):

@@ -86,6 +86,7 @@ class StaticSolver:
         state.twist[:] = 0.0
         state.acceleration_of_platform[:] = 0.0
         state.velocity[:] = 0.0
+        state.lead[:] = 0.0
         state.wet[:] = 1.0
         calm(state.window_times, state.window)
         state.parts[:, 7:] = 0.0

@@ -16,6 +16,7 @@ def water_loads(model, state, drag_time):
     """
     cx, cy, cz = state.stream[0], state.stream[1], state.stream[2]
     u, v, w = state.velocity[0], state.velocity[1], state.velocity[2]
+    du, dv, dw = state.lead[0], state.lead[1], state.lead[2]
     qx, qy, qz = state.tangent[0], state.tangent[1], state.tangent[2]
     fx, fy, fz = state.force[0], state.force[1], state.force[2]
     wet, inertia_normal, inertia_axial = state.wet, state.inertia_normal, state.inertia_axial
@@ -25,7 +26,7 @@ def water_loads(model, state, drag_time):
     for i in range(model.size):
         tx, ty, tz = qx[i] + qx[i + 1], qy[i] + qy[i + 1], qz[i] + qz[i + 1]
         inverse_square = 1.0 / max(tx * tx + ty * ty + tz * tz, TINY)
-        rx, ry, rz = cx[i] - u[i], cy[i] - v[i], cz[i] - w[i]
+        rx, ry, rz = cx[i] - u[i] - du[i], cy[i] - v[i] - dv[i], cz[i] - w[i] - dw[i]
         along = (rx * tx + ry * ty + rz * tz) * inverse_square
         ax, ay, az = along * tx, along * ty, along * tz
         nx, ny, nz = rx - ax, ry - ay, rz - az

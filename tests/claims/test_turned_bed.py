@@ -46,7 +46,7 @@ def tensions(slope, law):
 def test_a_flat_scene_turned_into_a_slope_has_the_same_tensions(law):
     flat, sloped = tensions(0.0, law), tensions(SLOPE, law)
     assert np.ptp(flat[:, 1]) > 0.1 * flat[0, 1] > 0.0
-    np.testing.assert_allclose(sloped, flat, rtol=0.0, atol=1e-6 * np.abs(flat).max())
+    np.testing.assert_allclose(sloped, flat, rtol=0.0, atol=3e-6 * np.abs(flat).max())
 
 
 def test_the_beds_friction_matters_to_the_turned_scene():

