@@ -1,6 +1,5 @@
 """Packed tuples and kernels by their addresses: one kernel works through many moorings, and calls another one without compiling it anew."""
 
-from llvmlite import ir
 from numba.core import types
 from numba.core.extending import intrinsic
 
@@ -25,7 +24,7 @@ def caller(result, arguments):
         def call(codegen, builder, signature, args):
             convention = codegen.call_conv
             values = [builder.extract_value(args[1], k) for k in range(len(arguments))]
-            function = builder.inttoptr(args[0], ir.PointerType(convention.get_function_type(result, arguments)))
+            function = builder.inttoptr(args[0], convention.get_function_type(result, arguments).as_pointer())
             _, returned = convention.call_function(builder, function, result, arguments, values)
             return returned
 
