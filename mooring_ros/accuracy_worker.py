@@ -52,21 +52,20 @@ class Window:
     released: tuple = ()
 
 
-def send(stream, message):
-    """Write one message to a binary stream."""
+def packed(message):
+    """The bytes of one message."""
     data = pickle.dumps(message)
-    stream.write(_LENGTH.pack(len(data)) + data)
-    stream.flush()
+    return _LENGTH.pack(len(data)) + data
 
 
-def receive(stream):
-    """The next message of a binary stream; None when it has ended."""
-    head = stream.read(_LENGTH.size)
+def receive(read):
+    """The next message, from read(count), which gives `count` bytes, or fewer where the stream ends; None at its end."""
+    head = read(_LENGTH.size)
     if len(head) < _LENGTH.size:
         return None
     (length,) = _LENGTH.unpack(head)
-    data = stream.read(length)
-    return pickle.loads(data) if len(data) == length else None  # from the node that started this process, nobody else
+    data = read(length)
+    return pickle.loads(data) if len(data) == length else None  # between the node and the process that it has started, nobody else
 
 
 class Throttle:
@@ -91,7 +90,7 @@ def main():
     messages = queue.SimpleQueue()
 
     def listen():
-        while (message := receive(sys.stdin.buffer)) is not None:
+        while (message := receive(sys.stdin.buffer.read)) is not None:
             messages.put(message)
         os._exit(0)  # at once, also in the middle of a computation
 
@@ -110,7 +109,8 @@ def main():
         except Exception as error:  # noqa: BLE001  (whatever it is, the node says it and goes on)
             found = {"why": f"{type(error).__name__}: {error}"}
         try:
-            send(sys.stdout.buffer, found)
+            sys.stdout.buffer.write(packed(found))
+            sys.stdout.buffer.flush()
         except OSError:
             return
 

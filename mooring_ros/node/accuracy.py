@@ -2,17 +2,20 @@
 
 On the way of a sample it costs one row written to an array. Everything else happens between samples, or in a thread that waits for pipes.
 """
+import contextlib
 import os
 import queue
+import select
 import subprocess
 import sys
 import threading
 
 import numpy as np
 
-from mooring_ros.accuracy_worker import PROGRAM, Task, Window, receive, send
+from mooring_ros.accuracy_worker import PROGRAM, Task, Window, packed, receive
 from mooring_ros.recording import schedule
 
+LOOK = 0.1              # s, how often the thread looks whether it is to end
 ROWS = 4000             # samples kept of a window, at most; closer ones are thinned out
 _COLUMNS = slice(1, 15)  # of a schedule record: time, pose, twist
 
@@ -32,6 +35,7 @@ class Companion:
         self.latest = self.at = None
         self.ended = ""
         self.busy = False
+        self._closing = threading.Event()
         self._requests, self._answers = queue.SimpleQueue(), queue.SimpleQueue()
         self._process = subprocess.Popen(
             [sys.executable, "-c", PROGRAM], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
@@ -65,7 +69,7 @@ class Companion:
             found = self._answers.get()
             self.busy = False
             if found is None:
-                self.ended = self.ended or f"its process ended with status {self._process.poll()}"
+                self.ended = self.ended or f"its process ended with status {self._process.returncode}"
             else:
                 self.latest, self.at = found, now
         if self.busy or self.ended or not self._count:
@@ -85,31 +89,50 @@ class Companion:
         return f"no estimate yet: it takes {self._window:g} s of motion (core time)"
 
     def close(self):
-        """End the process; returns at once."""
+        """End the process and the thread. The process may need a moment to be gone: it has the lowest priority."""
         self.ended = self.ended or "closed"
-        self._requests.put(None)
         self._process.kill()
-        self._thread.join(2.0)
+        self._closing.set()
+        self._requests.put(None)
+        self._thread.join()
 
     def _serve(self):
-        process = self._process
+        """The thread: requests into the one pipe, answers from the other; never blocked for longer than LOOK."""
+        into, out = self._process.stdin.fileno(), self._process.stdout.fileno()
+        os.set_blocking(into, False)
         try:
-            send(process.stdin, self._requests.get())
-            while (request := self._requests.get()) is not None:
-                send(process.stdin, request)
-                answer = receive(process.stdout)
+            self._write(into, packed(self._requests.get()))
+            while (request := self._requests.get()) is not None and not self._closing.is_set():
+                self._write(into, packed(request))
+                answer = receive(lambda count: self._read(out, count))
                 if answer is None:
                     break
                 self._answers.put(answer)
         except OSError:
-            pass
-        for stream in (process.stdin, process.stdout):
-            try:
+            pass        # the process is gone
+        for stream in (self._process.stdin, self._process.stdout):
+            with contextlib.suppress(OSError):
                 stream.close()
-            except OSError:
-                pass
-        process.wait()
+        while self._process.poll() is None and not self._closing.wait(LOOK):
+            pass
         self._answers.put(None)
+
+    def _write(self, pipe, data):
+        data = memoryview(data)
+        while data and not self._closing.is_set():
+            if select.select([], [pipe], [], LOOK)[1]:
+                data = data[os.write(pipe, data):]
+
+    def _read(self, pipe, count):
+        """`count` bytes, fewer at the end or when closing."""
+        data = b""
+        while len(data) < count and not self._closing.is_set():
+            if select.select([pipe], [], [], LOOK)[0]:
+                part = os.read(pipe, count - len(data))
+                if not part:
+                    break
+                data += part
+        return data
 
 
 def report(companion, pace, mooring, now):
