@@ -145,7 +145,8 @@ def measured(case, quick):
             missed.append(f"{name}, {label}: cost predicted as {1e3 * result.cost:.3g} ms/s, truly {1e3 * cost:.3g}")
     allowed = max(case.error, kept[0][0])
     grid = around(case, scene, found.chosen)
-    done = [(errors_between(run[0][compared:], true).worst, run[2], s) for s, run in zip(grid, in_another_process(case.file, motion, grid, PASSES, 1.1 * kept[0][1])) if run]
+    grid_runs = zip(grid, in_another_process(case.file, motion, grid, PASSES, 1.1 * kept[0][1]))
+    done = [(errors_between(run[0][compared:], true).worst, run[2], setting) for setting, run in grid_runs if run]
     own = next((entry[1] for entry in done if entry[2] == found.chosen.setting), kept[0][1])
     best = min((entry for entry in done if entry[0] <= allowed), key=lambda entry: entry[1], default=(0.0, own, found.chosen.setting))
     ratio = own / best[1]
@@ -167,7 +168,8 @@ def run(quick=False):
         rows, missed, facts[case.file] = rows + own, missed + failed, fact
     header = ["scene", "setting", "error said", "error", "ratio", "CPU said (ms/s)", "CPU (ms/s)", "ratio", "cost over the front's"]
     known = [
-        [file.removesuffix(".txt"), fact["window"], f"{fact['reference_error']:.2g} %", f"{fact['reference_segments']} ×", fact["runs"], f"{fact['seconds']:.0f} s", fact["grid"]]
+        [file.removesuffix(".txt"), fact["window"], f"{fact['reference_error']:.2g} %", f"{fact['reference_segments']} ×",
+         fact["runs"], f"{fact['seconds']:.0f} s", fact["grid"]]
         for file, fact in facts.items() if fact
     ]  # fmt: skip
     more = ["scene", "measured on", "reference's own error", "its segments", "runs", "CPU time", "runs of the brute force"]

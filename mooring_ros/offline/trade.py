@@ -17,13 +17,16 @@ QUANTITIES = {"tension": "errors", "force": "force_errors"}
 def add_arguments(parser):
     parser.add_argument("scene", metavar="SCENE", help="MoorDyn v2 input file, or a recording that holds one")
     parser.add_argument("motion", metavar="MOTION", help="the motion that is traded on: CSV or MCAP, as for replay")
-    parser.add_argument("--budget", type=positive, metavar="FACTOR", help="choose the most accurate setting that is at least this many times as fast as real time")
-    parser.add_argument("--error", type=positive, metavar="PERCENT", help="choose the cheapest setting with no more error, in mean, dynamic and peak tension")
+    parser.add_argument("--budget", type=positive, metavar="FACTOR",
+                        help="choose the most accurate setting that is at least this many times as fast as real time")
+    parser.add_argument("--error", type=positive, metavar="PERCENT",
+                        help="choose the cheapest setting with no more error, in mean, dynamic and peak tension")
     parser.add_argument("-o", "--output", metavar="REPORT.html", help="write a report with plots: one file, no network")
     parser.add_argument("--of", choices=tuple(QUANTITIES), default="tension",
                         help="what the error is of: the fairlead tension as published, that of the end segment (tension, the default), "
                         "or the force at the fairlead, of which the wrench is made (force)")
-    parser.add_argument("--time", type=positive, default=TIME, metavar="S", help=f"CPU time that it may take, s, without compiling (default {TIME:g})")
+    parser.add_argument("--time", type=positive, default=TIME, metavar="S",
+                        help=f"CPU time that it may take, s, without compiling (default {TIME:g})")
     parser.add_argument("--topic", metavar="NAME", help="which topic of an MCAP file is the motion (POSE,TWIST for a pair)")
     parser.add_argument("--fresh", action="store_true", help="measure again what is in the cache")
     parser.add_argument("--json", action="store_true", help="one JSON object on standard output, nothing else")
@@ -93,8 +96,8 @@ def trade(scene, motion, error=None, budget=None, of="tension", seconds=TIME, fr
     if not sweep.usable:
         raise ComputationFailed("no setting could be run: " + "; ".join(sorted({r.refused for r in sweep.results if r.refused})))
     return Found(
-        window=window, reference=reference, results=sorted(sweep.results, key=_order), front=front(sweep.usable, goal.of), left_out=sweep.left_out, chosen=chosen,
-        why=why, goal=goal, of=of, line_names=[line.name for line in scene.lines], runs=runner.runs, from_cache=cache.read,
+        window=window, reference=reference, results=sorted(sweep.results, key=_order), front=front(sweep.usable, goal.of),
+        left_out=sweep.left_out, chosen=chosen, why=why, goal=goal, of=of, line_names=[line.name for line in scene.lines], runs=runner.runs, from_cache=cache.read,
         cpu=runner.spent, elapsed=time.perf_counter() - began,
     )
 

@@ -6,7 +6,10 @@ GAIN = 0.02  # of the error: for less nobody pays
 
 
 def front(results, of="errors"):
-    """The results that no other beats in both error and cost, cheapest first, each with less error than the one before by GAIN. results: of trade_family.Result, not refused; of: which errors."""
+    """The results that no other beats in both error and cost, cheapest first, each with less error than the one before by GAIN.
+
+    results: of trade_family.Result, not refused; of: which errors.
+    """
     best, kept = float("inf"), []
     for cost, error, result in sorted(((result.cost, getattr(result, of).worst, result) for result in results), key=lambda entry: entry[:2]):
         if error < (1.0 - GAIN) * best:

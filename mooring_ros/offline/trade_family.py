@@ -73,7 +73,8 @@ class Family:
             whole = np.array([getattr(result, which).parts() for result in column])
             by_step = np.array([self._step_errors(result.steps) for result in column])
             mesh = np.sqrt(np.maximum(whole**2 - by_step**2, (LEAST_MESH_SHARE * whole) ** 2))
-            self._mesh_tables[which] = np.log([r.factor for r in column]), np.log(np.maximum(mesh, 1e-9)), np.log([r.cost / self._cost_of_steps(r.steps) for r in column])
+            costs = np.log([r.cost / self._cost_of_steps(r.steps) for r in column])
+            self._mesh_tables[which] = np.log([r.factor for r in column]), np.log(np.maximum(mesh, 1e-9)), costs
         factors, mesh, costs = self._mesh_tables[which]
         own = np.exp([_along(factors, part, math.log(factor)) for part in mesh.T])
         errors = np.sqrt(own**2 + self._step_errors(steps) ** 2)

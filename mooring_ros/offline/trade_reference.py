@@ -37,7 +37,8 @@ class Level:
 @dataclass(frozen=True)
 class Reference:
     """tension (k, lines) N; error (3,) per cent: what is left in mean, dynamic and peak; orders: observed in space and time, None where there
-    are not three runs to observe it in; refine: of the file's segments; steps: in a sample; levels: all runs; converged: error below `target`; why: in words, why refining ended."""
+    are not three runs to observe it in; refine: of the file's segments; steps: in a sample; levels: all runs; converged: error
+    below `target`; why: in words, why refining ended."""
 
     tension: np.ndarray
     error: np.ndarray

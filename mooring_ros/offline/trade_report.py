@@ -30,13 +30,15 @@ def write(path, found):
         sections.append(report.Section("The setting to use, beside the reference", _histories(found)))
     reference = report.paragraph(reference_words(found) + ".")
     reference += report.table(
-        ["segments, times the file's", "steps in a sample", "CPU (ms/s)", *(f"mesh, {part} (%)" for part in PARTS), *(f"step, {part} (%)" for part in PARTS)],
+        ["segments, times the file's", "steps in a sample", "CPU (ms/s)",
+         *(f"mesh, {part} (%)" for part in PARTS), *(f"step, {part} (%)" for part in PARTS)],
         [[level.refine, level.steps, 1e3 * level.cost, *_parts(level.space), *_parts(level.time)] for level in found.reference.levels],
         "Differences to the run with half the segments, and to that with half the steps.",
     )
     reference += report.figure(reference_figure(found.reference), "Differences between the reference's own runs; straight and steep is good.")
     sections += [report.Section("The reference", reference), report.Section("All settings", _table(found, [r for r in found.results if not r.refused]))]
-    refused = [[name(result.setting), result.refused] for result in found.results if result.refused] + [[name(setting), why] for setting, why in found.left_out]
+    refused = [[name(result.setting), result.refused] for result in found.results if result.refused]
+    refused += [[name(setting), why] for setting, why in found.left_out]
     if refused:
         sections.append(report.Section("Refused or left out", report.table(["setting", "why"], refused)))
     report.write_report(path, "Speed for accuracy", sections)

@@ -43,7 +43,8 @@ class Bar:
 
 
 class Runner:
-    """Measured runs of one scene. spent: s of CPU time that they took, now or when they came into the cache, so that a trade decides alike when it goes on."""
+    """Measured runs of one scene. spent: s of CPU time that they took, now or when they came into the cache, so that a trade
+    decides alike when it goes on."""
 
     def __init__(self, scene, cache, bar):
         self.scene, self._cache, self._bar = scene, cache, bar
@@ -59,7 +60,8 @@ class Runner:
             return found
         if found is None:
             kind = setting.fidelity, setting.solver
-            self._bar.say(f"{what}, {setting.method}, {setting.mesh} segments, step {setting.step}" + (" (compiling first)" if kind not in self._warm else ""), self.spent)
+            first = "" if kind in self._warm else " (compiling first)"
+            self._bar.say(f"{what}, {setting.method}, {setting.mesh} segments, step {setting.step}{first}", self.spent)
             found = measure(self.scene, setting, window, limit, timed, self._bar.tick)
             self._warm.add(kind)
             self._cache.keep(name, found)
@@ -76,5 +78,6 @@ class Runner:
         """As `run`, once, not timed; raises ComputationFailed where it is refused."""
         found = self.run(setting, limit, False, window, what)
         if found.refused:
-            raise ComputationFailed(f"the {what} ({setting.method}, {setting.mesh} segments, step {setting.step}) cannot be computed: {found.refused}")
+            run = f"{setting.method}, {setting.mesh} segments, step {setting.step}"
+            raise ComputationFailed(f"the {what} ({run}) cannot be computed: {found.refused}")
         return found

@@ -103,32 +103,32 @@ class Sweep:
         rows = slice(self._window.compared, None)
         return Result(
             setting, factor, steps, errors_between(measured.tension[rows], self._reference.tension),
-            errors_between(measured.force[rows], self._reference.tension), measured.cost, measured.worst_step, tension=measured.tension[rows].astype(np.float32),
+            errors_between(measured.force[rows], self._reference.tension), measured.cost, measured.worst_step,
+            tension=measured.tension[rows].astype(np.float32),
         )
 
     def _error(self, result):
         return getattr(result, self._goal.of).worst
 
     def _along_meshes(self, family):
-        """Finer until the error is small enough or the time is up, with shorter steps where finer meshes alone do not help; coarser until it is of no use."""
+        """Finer until the error is small enough or the time is up, with shorter steps where finer meshes alone do not help; coarser while it is of use."""
         more = self._best_share(family)
         first = self._run(family, 1.0, more * family.default_steps(1.0))
         before, last, slow = None, first, 0
         while last and (last.refused or self._error(last) > self._least):
             slow = slow + 1 if before and not last.refused and not before.refused and self._error(last) > SLOW * self._error(before) else 0
+            if slow and family.fidelity == "dynamic":
+                shorter = self._run(family, last.factor, 2 * more * family.default_steps(last.factor), 2.0 * last.cost)
+                if shorter and shorter.refused is None and self._error(shorter) < STUCK * self._error(last):
+                    before, last, slow, more = None, shorter, 0, 2 * more
             if slow == PATIENCE:
                 break
-            if slow and family.solver == "implicit":
-                more *= 2
-                shorter = self._run(family, last.factor, more * family.default_steps(last.factor), 2.0 * last.cost)
-                if shorter is None or shorter.refused or self._error(shorter) > STUCK * self._error(last):
-                    break
-                before, last, slow = None, shorter, 0
             factor = self._meshes.nearest(min(last.factor * LADDER, self._reference.refine / 2.0))
             if factor <= last.factor:
                 break
             growth = last.cost / before.cost if before and before.cost > 0.0 else 2.0
-            before, last = last, self._run(family, factor, more * family.default_steps(factor), last.cost * max(growth, 1.0) if last.refused is None else None)
+            expected = last.cost * max(growth, 1.0) if last.refused is None else None
+            before, last = last, self._run(family, factor, more * family.default_steps(factor), expected)
         last, more = first, self._best_share(family)
         while last and last.refused is None and self._error(last) < max(WORST, 5.0 * (self._goal.error or 0.0)):
             factor = self._meshes.nearest(last.factor / LADDER)
@@ -200,7 +200,8 @@ class Sweep:
     def _verify(self):
         """Run what the predictions put on the front."""
         for _ in range(ROUNDS):
-            waiting = [result for result in front(self.usable + self._predictions(), self._goal.of) if not result.measured and not self._refused_for_time(result)]
+            expected = front(self.usable + self._predictions(), self._goal.of)
+            waiting = [result for result in expected if not result.measured and not self._refused_for_time(result)]
             if not waiting:
                 break
             self._run_predicted(waiting[0])

@@ -30,7 +30,8 @@ def text(found):
     if found.chosen is not None:
         error = found.error(found.chosen)
         lines += ["", f"To use (*), {found.why}: {name(found.chosen.setting)}; {error.worst:.3g} % at {1.0 / found.chosen.cost:.4g} times real time",
-                  f"  {found.parameters}: for mooring_node, --ros-args --params-file", f"  {found.chosen.setting.replay_command(found.scene, found.motion)}"]
+                  f"  {found.parameters}: for mooring_node, --ros-args --params-file",
+                  f"  {found.chosen.setting.replay_command(found.scene, found.motion)}"]
     elif not found.why:
         lines += ["", "With --error PERCENT or --budget FACTOR, the setting to use is chosen and written as a parameter file."]
     return "\n".join(lines)
@@ -58,6 +59,6 @@ def reference_words(found):
     parts = ", ".join(f"{part} {error:.2g} %" for part, error in zip(PARTS, reference.error))
     orders = [f"{where} {order[1]:.2g}" for where, order in (("mesh", reference.space_order), ("step", reference.time_order)) if order[1] is not None]
     return (
-        f"Reference: {reference.refine} times the file's segments, {reference.steps} steps in a sample; known by the differences of {len(reference.levels)} runs to"
-        f" {parts}{' (observed orders: ' + ', '.join(orders) + ')' if orders else ''}; {reference.why}"
+        f"Reference: {reference.refine} times the file's segments, {reference.steps} steps in a sample; known by the differences of"
+        f" {len(reference.levels)} runs to {parts}{' (observed orders: ' + ', '.join(orders) + ')' if orders else ''}; {reference.why}"
     )

@@ -107,7 +107,7 @@ def test_the_reference_knows_its_own_error(scene):
 
     def run(setting):
         asked.append(setting)
-        steps = 2 if setting.dt is None else 2 * steps_in(window.interval, setting.dt)
+        steps = steps_in(window.interval, setting.dt or Mooring(described, solver="explicit", refine=setting.refine).step_limit.dt)
         wave = 1e4 * setting.refine**-2.0 * np.sin(2.0 * TIMES) + 100.0 * steps**-2.0 * np.cos(5.0 * TIMES)
         history = (TRUE + wave[:, None])[1:]
         return Measured(history, history, 1e-6, 1e-6, 1e-4)
