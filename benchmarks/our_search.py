@@ -9,7 +9,7 @@ from .peer_search import period
 
 RATE = 100.0  # Hz, at which the motion is sampled for references
 IMPLICIT_STEPS = (35, 50, 70, 100, 140, 200, 400)  # in a period
-EXPLICIT_PARTS = (1.0, 0.7, 0.5, 0.25)  # of the largest step
+EXPLICIT_PARTS = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0)  # of the default step
 LONGEST_INTERVAL = 1.0 / 25.0  # between samples, of a period
 FEWEST = 105  # samples to take an error from
 
@@ -33,7 +33,7 @@ class OurSetting:
         return f"{self.solver}, {step}, samples at {self.rate:.3g} Hz"
 
 
-def reference(case, refinement=1, fine=16):
+def reference(case, refinement=1, fine=8):
     """Our converged run on a mesh: ``fine`` steps in a segment's transit time, motion sampled at 100 Hz."""
     return of_ours(case, "explicit", transit(case, refinement) / fine, max(RATE, 200.0 / period(case)), refinement)
 
@@ -55,7 +55,7 @@ def settings(case, known, refinement=1, what="force"):
         elif solver == "implicit":
             steps += [period(case) / count for count in IMPLICIT_STEPS]
         for dt in steps:
-            for rate in rates(case, dt):
+            for rate in rates(case, dt):  # none where so long a step leaves too few samples
                 found.append(tried(case, known, solver, dt, rate, refinement, what=what))
     return found
 
@@ -65,6 +65,6 @@ def rates(case, dt):
     motion = case.platform()
     longest = min(LONGEST_INTERVAL * period(case), (motion.end - motion.start) / FEWEST)
     if dt is None:
-        return (20.0, 1.0 / longest)
-    wholes = {max(1, int(x / dt)) for x in (0.3 * longest, longest)}
+        return (20.0, 10.0, 5.0, 1.0 / longest)
+    wholes = {int(x / dt) for x in (dt, 0.3 * longest, longest) if dt <= longest} - {0}
     return tuple(sorted({1.0 / (n * dt) for n in wholes}))
