@@ -78,7 +78,7 @@ class BlockMooring(MixedMooring):
             self._groups.append(Group(fidelity, mooring, lines, outputs))
             self._home.update(dict.fromkeys(mooring.line_names, len(self._groups) - 1))
         self._begin()
-        self.solver = self._fullest.solver
+        self.solver, self.choice = self._fullest.solver, self._fullest.choice
         self.segments = self._by_line(lambda mooring: np.array(mooring.segments)).tolist()
 
     def _begin(self):

@@ -51,7 +51,7 @@ class MixedMooring(Mooring):
         scenes = cut(self.scene, names[::-1])[::-1]
         self._groups = [self._group(part, one, positional, settings) for one, part in zip(chosen, scenes)]
         self._fullest = self._groups[-1].mooring
-        self.solver = self._fullest.solver
+        self.solver, self.choice = self._fullest.solver, self._fullest.choice
         self.segments = self._by_line(lambda mooring: np.array(mooring.segments)).tolist()
 
     def _refuse_joints(self):

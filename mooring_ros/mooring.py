@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from .arguments import checked_poses, checked_twists, numbers, shaped
+from .choice import choose_solver
 from .core import explicit, implicit
 from .core.bending_readings import curvature as curvature_of_nodes
 from .core.energy import energy
@@ -116,11 +117,15 @@ class Mooring:
         self._given_dt = dt
         self._layout = layout = Layout(self.scene)
         self._model, self._ends = build(self._wound, self._segments, layout)
+        self._prepare()
+        self.choice = f"{solver}, as asked for"
+        if solver == "auto" and fidelity == "dynamic":
+            self.solver, self.choice = choose_solver(self._wound, self._model, self.step_limit, self._table, dt)
+            self._prepare_implicit()
         self._identity = hashlib.sha256(b"".join((self.solver.encode(), *_bytes(self._model)))).hexdigest()
         self._state = new_state(self._model, self._ends)
         self._scratch = new_scratch(self._model)
         self._readings = new_readings(self._model, 1)
-        self._prepare()
         self.warnings = self.scene.warnings
         if dt is not None and dt > self.step_limit.dt:
             self.warnings += (f"dt = {dt:g} s is more than the largest step, {self.step_limit.dt:.4g} s ({self.step_limit.limited_by}), which is taken",)
@@ -145,6 +150,9 @@ class Mooring:
         self._statics = StaticSolver(self._wound, self._model)
         self.step_limit = step_limit(self._wound, self._model, self._ends, self._given_dt)
         self._table = step_table(self.step_limit.axial, self.step_limit.dt)  # of swings, too
+        self._prepare_implicit()
+
+    def _prepare_implicit(self):
         if self.solver == "implicit":
             self.step_limit = implicit.step_limit(self._wound, self.step_limit, self._given_dt)
             self._implicit = self._implicit or implicit.ImplicitSolver(self._model, self.step_limit.dt, self._spectral_radius)

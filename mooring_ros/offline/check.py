@@ -42,6 +42,7 @@ def inspect(path):
         **contents(scene),
         "effects": switched,
         "cost_shares": passes,
+        "solver": {"name": mooring.solver, "why": mooring.choice},
         "step_limit": {
             "dt": float(limit.dt),
             "limited_by": limit.limited_by,
@@ -65,6 +66,7 @@ def _text(found):
         *(f"       {what.ljust(width)}  {share:>6}" for what, share in beside),
         "  (″: in the same pass as an effect above)",
         "",
+        f"Solver: {found['solver']['why']}",
         f"Largest stable step: {g(limit['dt'])} s, limited by {limit['limited_by']}",
         "Limits of a plain leapfrog step",
         *(f"  {name}: {g(step)} s" if step else f"  {name}: no limit" for name, step in limit["limits"].items()),
