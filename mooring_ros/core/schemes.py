@@ -3,6 +3,8 @@
 A mode of the lines has lambda^2 + 2 zeta w lambda + w^2 = 0. Internal damping grows with w^2, so the modes of a line whose stiffest mode is
 critically damped lie on a circle of the left half plane that touches the origin: the stability region of Euler steps.
 
+`axial`: leapfrog with the axial forces taken implicitly (axial.py): stable for them at any step.
+
 `leapfrog`: v += h a(x, v); x += h v. One evaluation a step; stable to h w = 2 (sqrt(1 + zeta^2) - zeta).
 
 `ssp(s)`: s - 1 Euler steps of h/(s - 1), one more, and the mean of its result (weight 1 - 1/s) with the step's start (1/s): second order,

@@ -3,7 +3,8 @@
 Axial modes: every segment with half of its mass at each end bounds the frequencies of the assembled lines from above (Irons), whatever
 hangs on them: w = (2/l) sqrt(EA/m), with m the dry mass (water only adds to it). Bending, bed contact and drag have limits of their own;
 contact and drag are kept from limiting (seabed.py, water.py), so they are listed, not applied. Steps of many stages are also capped where
-the first axial mode of a line, pi c / L, would no longer be followed to about 1 % of the dynamic tension.
+the first axial mode of a line, pi c / L, would no longer be followed to about 1 % of the dynamic tension, and those of the scheme `AXIAL`,
+which axial waves do not limit, by the pace of the lines.
 """
 
 import math
