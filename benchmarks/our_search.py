@@ -9,7 +9,7 @@ from .peer_search import period
 
 RATE = 100.0  # Hz, at which the motion is sampled for references
 IMPLICIT_STEPS = (35, 50, 70, 100, 140, 200, 400)  # in a period
-EXPLICIT_PARTS = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0)  # of the default step
+EXPLICIT_PARTS = (0.06, 0.12, 0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0)  # of the default step
 LONGEST_INTERVAL = 1.0 / 25.0  # between samples, of a period
 FEWEST = 105  # samples to take an error from
 
