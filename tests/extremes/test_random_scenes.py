@@ -8,7 +8,6 @@ from benchmarks.extremes.judge import NOT_A_NUMBER, REFUSED, RIGHT, WRONG
 
 SEEDS = range(100)
 AS_LONG = 10  # seeds in a test
-KNOWN = {27: "a line of one segment with next to no damping: leapfrog near its limit follows the only axial mode with a phase of its own"}
 
 
 @pytest.mark.parametrize("first", SEEDS[::AS_LONG])
@@ -16,7 +15,7 @@ def test_random_scenes_end_right_or_in_a_refusal_that_says_why(first):
     """Ten seeds each. Chaotic: finer and finer steps come to different forces; then peaks are bounded."""
     ended = {seed: random_judge.judge(seed) for seed in range(first, first + AS_LONG)}
     wrong = {seed: words for seed, (_, outcome, words) in ended.items() if outcome in (WRONG, NOT_A_NUMBER)}
-    assert wrong.keys() <= KNOWN.keys(), wrong
+    assert not wrong
     for _, outcome, words in ended.values():
         assert outcome != REFUSED or ";" in words or "expected" in words, words
 
