@@ -31,6 +31,7 @@ KEPT = 8  # steps for which a finer step is kept
 SPECTRAL_RADIUS = 0.6
 LONGEST, STEPS_A_SWING = 0.05, 50.0  # s; of the step that is taken when none is given
 SMOOTHING = 1e-3  # s: samples closer than this share one mean acceleration
+LEAST_STRAIN = 1e-9
 ROUNDING = 16.0 * np.finfo(float).eps
 
 
@@ -239,14 +240,16 @@ class ImplicitSolver:
 
 
 def force_scale(model):
-    """(n,) N: the submerged weight of the line, or the node's own weight; where lines are so stiff that rounding makes more, of that."""
+    """(n,) N: the submerged weight of the line, or the node's own weight; LEAST_STRAIN of EA where nothing weighs, and no less than rounding makes."""
     beyond = np.append(np.arange(1, model.mass.size), 0)  # the segment to the right
-    own = np.abs(model.weight) + np.abs(model.buoyancy)
-    line = np.maximum(model.tension_scale, model.tension_scale[beyond])
+    scale = np.abs(model.weight) + np.abs(model.buoyancy)
+    for first, count in zip(model.first_node, model.segments):
+        nodes = slice(first, first + count + 1)
+        scale[nodes] = max(np.abs(model.weight[nodes] - model.buoyancy[nodes]).sum(), LEAST_STRAIN * model.stiffness[first + 1])
     stiffest = model.live * model.stiffness * model.inverse_length
     stiffest = np.maximum(stiffest, stiffest[beyond]) + model.bed_stiffness
     extent = max(np.abs(model.point_place).max(initial=1.0), abs(model.bed_level), (model.live * model.length).sum())
-    return np.maximum(np.maximum(own, line), ROUNDING / TOLERANCE * stiffest * extent)
+    return np.maximum(scale, ROUNDING / TOLERANCE * stiffest * extent)
 
 
 def _new_work(model, plan):
