@@ -575,6 +575,8 @@ class Mooring:
                 explicit.TOO_LONG: f"needs more than {explicit.MOST_STEPS:g} steps of {self.step_limit.dt:.3g} s; expected shorter intervals",
                 explicit.TOO_FAST: f"moves the platform faster than {FASTEST:g} m/s; settle() at a pose that the platform is to be put to",
             }[status]
+            if self.solver == "implicit" and status == explicit.RUNAWAY:
+                cause = f"comes to no balance of forces even with a step of {self.step_limit.dt / implicit.FINEST:.3g} s; expected a smoother motion, or solver 'explicit'"
             error = MooringError(f"the step to t = {times[done]:.6g} s {cause}; the mooring stands at t = {self.time:.6g} s")
             error.samples = done
             raise error

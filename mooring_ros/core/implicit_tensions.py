@@ -108,6 +108,8 @@ def foresee(model, state, plan, axial, damper, c_v, pulled, linear, right, tensi
         pull = start + (axial[s] + c_v * damper[s]) * rate + damper[s] * swing * per_length
         tight = pulled[s] != 0.0 or length + rate > model.length[s]
         tension[s] = max(pull, 0.0) if tight else 0.0
+        if tension[s] > 0.0:
+            pulled[s] = 1.0  # across, but for the pull that will stop it
 
 
 @routine
