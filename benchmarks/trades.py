@@ -204,6 +204,8 @@ def figure(found):
         axis.set(xscale="log", yscale="log", xlabel="CPU ms per simulated s", ylabel="error (%)")
         axis.set_title(name, loc="left", fontsize=9)
         axis.set_ylim(top=min(100.0, axis.get_ylim()[1]))
+    for axis in grid.flat[len(found) :]:
+        axis.set_visible(False)
     handles = {label: handle for axis in grid.flat for handle, label in zip(*axis.get_legend_handles_labels(), strict=True)}
     picture.legend(handles.values(), handles.keys(), loc="outside upper center", ncols=4, frameon=False, fontsize=9)
     return picture
