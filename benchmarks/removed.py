@@ -45,7 +45,7 @@ GUARD = "the guard"
 REPLACED = {  # what is not under a condition: file, line, what stands there instead
     GUARD: [
         ("explicit.py", "keep_tension(model, state, scratch)", "pass"),
-        ("explicit.py", "worst = max(worst, tension_jumped(model, state, scratch, JUMP))", "pass"),
+        ("explicit.py", "worst = max(worst, tension_jumped(model, state, scratch, AXIAL_JUMP if scheme == AXIAL else JUMP))", "pass"),
         ("explicit.py", "save(model, state, scratch, source)", "pass"),
         ("explicit.py", "wild = runaway(model, state, fastest)", "wild = False"),
         ("explicit.py", "torn = overstretched(model, state, settings[5])", "torn = False"),
