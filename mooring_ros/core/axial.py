@@ -33,13 +33,13 @@ def _mobilities(model, state, across, surplus, lift):
     """Inverse inertia of the nodes, across I + surplus t t', with `lift` on vertical components for what the bed holds."""
     normal, axial = state.inertia_normal, state.inertia_axial
     qx, qy, qz = state.tangent[0], state.tangent[1], state.tangent[2]
-    z, relief, level = state.position[2], state.bed_relief, model.bed_level
+    relief = state.bed_relief
     for i in range(model.size):
         tx, ty, tz = qx[i] + qx[i + 1], qy[i] + qy[i + 1], qz[i] + qz[i + 1]
         square = max(tx * tx + ty * ty + tz * tz, TINY)
         both = 1.0 / (normal[i] * axial[i] * square + 1e-300)
         across[i], surplus[i] = axial[i] * square * both, (normal[i] - axial[i]) * both
-        lift[i] = relief[i] if z[i] < level else 1.0
+        lift[i] = relief[i]
     across[model.size], surplus[model.size], lift[model.size] = 0.0, 0.0, 1.0
     for e in range(model.end_node.size):
         if state.end_point[e] != LOOSE:

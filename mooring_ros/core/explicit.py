@@ -14,7 +14,6 @@ from .points import carry_ends, place_coupled_points, place_staggered_coupled_po
 from .readings import show
 from .rigid import copy_parts, euler_parts, mix_parts
 from .schemes import AXIAL, LEAPFROG
-from .seabed import set_bed_relief
 from .surface import all_wet, reaches_above
 from .waves import copy_window, outdated, refresh
 
@@ -56,7 +55,6 @@ def adapt(model, state, euler_step, lag):
     state.settings[0] = euler_step / (STAGGERED_DRAG_SAFETY if lag > 0.0 else DRAG_SAFETY)
     state.settings[1] = euler_step
     state.settings[8] = lag
-    set_bed_relief(model, state, 0.0 if model.ground.on else euler_step)  # ground.py takes the contact implicitly by itself
 
 
 @stage
@@ -271,7 +269,6 @@ def advance(model, state, scratch, table, time, pose, twist, report):
             for i in range(6):
                 state.acceleration_of_platform[i] = mean_before[i]
             settings[0], settings[1], settings[2], settings[3], settings[4], settings[6], settings[8] = previous
-            set_bed_relief(model, state, 0.0 if model.ground.on else settings[1])
             if settings[2] == 0.0:
                 all_wet(model, state)
             if looked_ahead:

@@ -21,7 +21,6 @@ from .implicit_plan import make_topology
 from .packed import entry
 from .platform import start_motion
 from .readings import show
-from .seabed import set_bed_relief
 from .surface import all_wet
 from .waves import copy_window, outdated, refresh
 
@@ -142,7 +141,6 @@ def advance(model, state, scratch, plan, work, scheme, longest, time, pose, twis
         work.settings[9] = 0.0  # whether the waves have been looked at further ahead
         report[0], report[1], report[2], report[3] = 0.0, 0.0, 0.0, duration
     settings[0], settings[1], settings[8] = 0.0, 0.0, 0.0
-    set_bed_relief(model, state, 0.0)
     steps = int(np.ceil(duration / min(longest, model.sea.refresh) - 1e-9))
     h = duration / steps
     good, torn = True, False

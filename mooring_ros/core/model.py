@@ -132,7 +132,7 @@ class State(NamedTuple):
     wet: np.ndarray  # (n,), wet share of the nodes, 0..1
     inertia_normal: np.ndarray  # (n,), kg
     inertia_axial: np.ndarray  # (n,), kg
-    bed_relief: np.ndarray  # (n,): factor on the vertical acceleration of a node in contact, 0..1
+    bed_relief: np.ndarray  # (n,): factor on the vertical acceleration of a node that the bed pushes, 0..1 (seabed.py); ones on other beds
     clamp_axis: np.ndarray  # (C, 3), unit vectors from the clamps into their lines
     clamp_moment: np.ndarray  # (C, 3), N m on what holds the clamp
     grip: np.ndarray  # (4, n): what the friction law `stick` remembers (ground.py); (4, 0) without it

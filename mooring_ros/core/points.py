@@ -79,7 +79,7 @@ def add_inertia(model, state, scratch, node, matrix):
         bed = scratch.bed
         across, along = scratch.hold[0, node], scratch.hold[1, node]
         nx, ny, nz = bed[1, node], bed[2, node], bed[3, node]
-    elif state.position[2, node] < model.bed_level:
+    elif state.bed_relief[node] < 1.0:
         step = state.settings[1]
         across = step * (model.bed_damping[node] + step * model.bed_stiffness[node])
     more = across - along
