@@ -10,7 +10,7 @@ WORTH = 5.0  # times the cost of the implicit solver that the explicit one, the 
 def choose_solver(scene, model, limit, table, dt):
     """("explicit" or "implicit", why) for `scene` built as `model`, with the explicit solver's StepLimit and step table; `dt` (s) as given, or None."""
     own = min(cost / largest for _, largest, _, cost in table)
-    step = implicit.step_limit(scene, limit, dt).dt
+    step = implicit.step_limit(scene, limit).dt if dt is None else min(implicit.step_limit(scene, limit).dt, dt)
     other = STEP / step
     spent = f"{own:.0f} evaluations of the forces a simulated second in steps of {limit.dt:.3g} s ({limit.limited_by})"
     if own <= WORTH * other:

@@ -40,10 +40,10 @@ def judge(seed, solver="auto", settings=None):
     verdict = from_claims(action_and_reaction(mooring, history))
     if verdict.outcome != RIGHT:
         return layout, verdict.outcome, verdict.words
-    return (layout, *_beside_finer(scene, motion, history, step, start))
+    return (layout, *_beside_finer(scene, motion, history, step, start, mooring.solver))
 
 
-def _beside_finer(scene, motion, history, step, start):
+def _beside_finer(scene, motion, history, step, start, solver):
     track = _staying(scene, history)
     floor = 1e-3 * max(line.type.mass * line.length for line in scene.lines) * G
     stated = STATED * (PARTING if scene.failures else 1.0)
@@ -53,7 +53,7 @@ def _beside_finer(scene, motion, history, step, start):
 
     runs = []
     for finer in FINER:
-        runs.append(_run(scene, motion, step / finer, start))
+        runs.append(_run(scene, motion, step / finer, start, solver))
         if runs[-1] is None:
             return WRONG, f"was refused with a step {finer:g} times finer"
         verdict = beside(track, runs[-1])
@@ -61,7 +61,7 @@ def _beside_finer(scene, motion, history, step, start):
             return RIGHT, verdict.words
     shift = np.array([NUDGE, NUDGE, -NUDGE, 0.0, 0.0, 0.0, 0.0]) * scene.environment.depth
     nudged = Samples(motion.start, motion.times, motion.poses + shift, motion.twists)
-    fine = [*runs[1:], _run(scene, motion, step / PROBE, start), _run(scene, nudged, step / FINER[-1], start)]
+    fine = [*runs[1:], _run(scene, motion, step / PROBE, start, solver), _run(scene, nudged, step / FINER[-1], start, solver)]
     fine = [run for run in fine if run is not None]
     if all(beside(one, fine[1]).outcome == RIGHT for one in fine):
         return WRONG, verdict.words
@@ -93,9 +93,9 @@ def _staying(scene, history):
     return Track(history.time, history.fairlead_tension[:, stays])
 
 
-def _run(scene, motion, dt, start):
+def _run(scene, motion, dt, start, solver):
     """Track of the same with another step, from the same state; None where it is refused."""
-    mooring = Mooring(scene, dt=dt, solver="explicit")
+    mooring = Mooring(scene, dt=dt, solver=solver)
     mooring.restore(start)
     try:
         return _staying(scene, mooring.run(motion.times, motion.poses, motion.twists))

@@ -19,7 +19,7 @@ import math
 import numpy as np
 
 AXIAL, LEAPFROG = 0, 1  # the others are named by their number of evaluations a step
-AXIAL_COST = 2.0  # of an evaluation: what one and the solve along the lines take together
+AXIAL_COST = 3.0  # of an evaluation: what one and the solve along the lines take together
 SSP = tuple(range(2, 9))
 SAFETY = 0.95  # of the stable step
 

@@ -17,10 +17,11 @@ from .hinges import stiffness_rows
 from .layout import POINT_COUPLED, POINT_FIXED
 from .model import LOOSE, MOST_JOINTS
 from .ropes import rope_limits
-from .schemes import AXIAL, LEAPFROG, SAFETY, SSP, stable_step
+from .schemes import AXIAL, AXIAL_COST, LEAPFROG, SAFETY, SSP, stable_step
 
 REFERENCE_SPEED = 2.0  # m/s, at which the drag's own limit is stated
 UNDAMPED = 0.15  # rad: undamped modes grow by 0.012 of its fourth power in a step of the schemes of several stages: 1e-5
+LANDING, DEARER = 5.0, 1.7  # of the bed's damping time: steps in which nodes land softly; times the cost of the schemes of several stages that `AXIAL` may have then
 LONGEST = 4.0  # times the step that is right for accuracy: the longest of the scheme `AXIAL` that is taken when it is asked for
 PACE, PASSING = 0.004, 0.11  # of sqrt(L/g) and of L/c, for the scheme `AXIAL`: 0.2 % of the dynamic tension on the OC4 chains
 ACCURACY = 0.66  # of count / w = L / (2 c): 0.3 % of the dynamic tension on the OC4 chains (docs/measurements.md)
@@ -71,13 +72,17 @@ def step_limit(scene, model, end_point, dt=None):
     undamped = scene.environment.water_density == 0.0 or any(line.type.drag_normal == 0.0 for line in scene.lines)
     best_ssp = max(axial[s] / s for s in SSP)
     accuracy, by = limits["axial accuracy"], "accuracy of the first axial mode"
+    stages = max(min(SAFETY * axial[s], accuracy) / s for s in SSP)  # s an evaluation
+    pace, by_pace = np.inf, by
     if axial_waves_stand_alone(model):
-        usable = {AXIAL: limits["bending"], LEAPFROG: axial[LEAPFROG]}
         limits["pace of the lines"], limits["passing of an axial wave"] = paces(scene, model, end_point)
+        pace, by_pace = min((limits[name], name) for name in ("pace of the lines", "passing of an axial wave"))
         if undamped or scene.environment.gravity == 0.0:
-            accuracy, by = 0.0, f"axial waves in {worst}, which nothing damps"
-        else:
-            accuracy, by = min((limits[name], name) for name in ("pace of the lines", "passing of an axial wave"))
+            pace, by_pace = 0.0, f"axial waves in {worst}, which nothing damps"
+        landing = min(pace, SAFETY * limits["bending"], LANDING * limits["bed damping"])
+    if pace < np.inf and (pace == 0.0 or DEARER * landing > AXIAL_COST * stages):
+        usable = {AXIAL: limits["bending"], LEAPFROG: axial[LEAPFROG]}
+        accuracy, by = pace, by_pace
     elif undamped or axial[LEAPFROG] >= best_ssp:
         usable = {LEAPFROG: axial[LEAPFROG]}
     else:
