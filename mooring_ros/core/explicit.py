@@ -7,7 +7,7 @@ from .cache import kernel, paragraph, routine, stage
 from .failures import part
 from .forces import evaluate, evaluate_in_place
 from .ground import commit_grip
-from .guard import EVEN, FASTEST, IMPLAUSIBLE, TORN, UNEVEN, copy_row, keep_tension, overstretched, recall, runaway, save, speed_of_ends, tension_jumped
+from .guard import EVEN, FASTEST, IMPLAUSIBLE, TORN, UNEVEN, copy_row, hardest_acceleration, keep_tension, overstretched, recall, runaway, save, speed_of_ends, tension_jumped
 from .packed import entry
 from .platform import start_motion
 from .points import carry_ends, place_coupled_points, place_staggered_coupled_points, speed_coupled_points
@@ -24,6 +24,7 @@ MOST_STEPS = 1e7  # largest steps in an interval: some minutes of work
 FINEST = 64.0  # times finer than the largest step a chunk is tried, before its interval is given up
 JUMP = 0.1  # of the tension and the line's weight: the change of a tension, from Euler steps to their mean, that is too much
 AXIAL_JUMP = 0.15  # the same for the scheme `AXIAL`, whose steps are long
+GENTLE = 0.3  # of the lines' weight: the tension that the platform may cause in a step of the scheme `AXIAL` by what it gains in speed
 MOST_REFINED = 8.0  # times finer steps for that cause; a jump that stays is one of the line, not of the scheme
 REFINED_STEPS = 40.0  # largest steps for which a finer step is kept
 DRAG_SAFETY = 0.9  # of the Euler step at which drag would turn a velocity round
@@ -32,16 +33,16 @@ SURFACE_MARGIN, LIKELY_SPEED = 1.0, 5.0  # m, m/s: how far below the surface nod
 
 
 @stage
-def choose_step(table, span, refined, transverse):
+def choose_step(table, span, refined, slow):
     """(row of the table, number of steps) with the least cost over `span` (s); of equals, the shorter steps.
 
-    Steps are at most those of the table over `refined`, and for the scheme `AXIAL` those that the transverse waves allow (s).
+    Steps are at most those of the table over `refined`, and for the scheme `AXIAL` those that transverse waves and the platform's motion allow: `slow` (s).
     """
     best, best_steps, best_cost = 0, 0.0, np.inf
     for row in range(table.shape[0]):
         largest = table[row, 1]
         if table[row, 0] == AXIAL:
-            largest = min(largest, transverse)
+            largest = min(largest, slow)
         steps = max(np.ceil(span * refined / largest - 1e-9), 1.0)
         cost = steps * table[row, 3]
         if cost < best_cost:
@@ -222,6 +223,7 @@ def advance(model, state, scratch, table, time, pose, twist, report):
     largest, smallest = table[0, 1], table[0, 1]
     for row in range(table.shape[0]):
         largest, smallest = max(largest, table[row, 1]), min(smallest, table[row, 1])
+    calm = GENTLE * model.gentle / max(hardest_acceleration(model, scratch.motion), 1e-12)
     settings = state.settings
     previous = (settings[0], settings[1], settings[2], settings[3], settings[4], settings[6], settings[8])
     if not duration <= MOST_STEPS * largest:
@@ -246,8 +248,8 @@ def advance(model, state, scratch, table, time, pose, twist, report):
                 looked_ahead = True
             refresh(model.sea, now, now + span, model.size, state.position, state.velocity, scratch.wave_work, state.window_times, state.window)
         while True:
-            transverse = transverse_step(model, state) if table[0, 0] == AXIAL else np.inf
-            row, steps = choose_step(table, span, refined, transverse)
+            slow = min(calm, transverse_step(model, state)) if table[0, 0] == AXIAL else np.inf
+            row, steps = choose_step(table, span, refined, slow)
             h = span / steps
             adapt(model, state, h / table[row, 2], 0.5 * h if table[row, 0] <= LEAPFROG else 0.0)
             look_at_surface(model, state, SURFACE_MARGIN + model.bulk + span * max(LIKELY_SPEED, ends))

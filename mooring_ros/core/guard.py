@@ -23,6 +23,21 @@ def speed_of_ends(model, twist0, twist1, motion):
 
 
 @stage
+def hardest_acceleration(model, motion):
+    """Acceleration (m/s^2) that coupled points do not pass in an interval with its `motion` (platform.start_motion), turning for small angles."""
+    hardest = 0.0
+    for s in (0.0, 1.0):
+        place, turn = 0.0, 0.0
+        for k in range(3):
+            a, b = (4.0, 2.0) if s == 0.0 else (2.0, 4.0)
+            moved = 6.0 * (motion[2, k] - motion[0, k]) - a * motion[1, k] - b * motion[3, k]
+            turned = 6.0 * motion[4, k] - a * motion[5, k] - b * motion[6, k]
+            place, turn = place + moved * moved, turn + turned * turned
+        hardest = max(hardest, np.sqrt(place) + model.reach * np.sqrt(turn))
+    return hardest / (motion[7, 0] * motion[7, 0])
+
+
+@stage
 def runaway(model, state, fastest):
     """True when a node is faster than `fastest` (m/s), or a place, speed or tension is not a finite number."""
     u, v, w = state.velocity[0], state.velocity[1], state.velocity[2]

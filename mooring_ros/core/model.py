@@ -73,6 +73,7 @@ class Model(NamedTuple):
     # environment
     bed_level: float  # z of the bed, m
     natural_speed: float  # m/s that a sound mooring hardly passes while its ends stand still
+    gentle: float  # m/s: least of the lines' weight over their impedance, sqrt(EA m), for axial waves
     reach: float  # m from the platform's reference point to the farthest coupled point
     bulk: float  # m, radius of the thickest of all
     # ends, (E,)
@@ -227,6 +228,7 @@ def build(scene, segments=None, layout=None):
         **rows,
         bed_level=-float(env.depth),
         natural_speed=natural_speed(scene),
+        gentle=_gentle(scene, rows, first_node),
         reach=max(np.linalg.norm(places[coupled], axis=1), default=0.0),
         bulk=0.5 * max(rows["diameter"].max(), *diameters),
         end_node=np.array(end_node, dtype=np.int64),
@@ -292,6 +294,11 @@ def natural_speed(scene):
     fall = np.sqrt(2.0 * env.gravity * (env.depth + max(line.length for line in scene.lines)))
     recoil = 0.05 * max(np.sqrt(line.type.stiffness / line.type.mass) for line in scene.lines)
     return float(fall + fastest_water(env) + recoil)
+
+
+def _gentle(scene, rows, first_node):
+    scales = (rows["tension_scale"][first + 1] for first in first_node)
+    return float(min(scale / np.sqrt(line.type.stiffness * line.type.mass) for scale, line in zip(scales, scene.lines)))
 
 
 def _place_line(rows, line, start, count, env):
