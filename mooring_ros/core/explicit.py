@@ -25,6 +25,7 @@ FINEST = 64.0  # times finer than the largest step a chunk is tried, before its 
 JUMP = 0.1  # of the tension and the line's weight: the change of a tension, from Euler steps to their mean, that is too much
 AXIAL_JUMP = 0.15  # the same for the scheme `AXIAL`, whose steps are long
 GENTLE = 0.3  # of the lines' weight: the tension that the platform may cause in a step of the scheme `AXIAL` by what it gains in speed
+LENGTHENED = 2.5  # times the step before: longer ones begin with the velocities there are
 MOST_REFINED = 8.0  # times finer steps for that cause; a jump that stays is one of the line, not of the scheme
 REFINED_STEPS = 40.0  # largest steps for which a finer step is kept
 DRAG_SAFETY = 0.9  # of the Euler step at which drag would turn a velocity round
@@ -56,6 +57,22 @@ def adapt(model, state, euler_step, lag):
     state.settings[0] = euler_step / (STAGGERED_DRAG_SAFETY if lag > 0.0 else DRAG_SAFETY)
     state.settings[1] = euler_step
     state.settings[8] = lag
+
+
+@stage
+def stagger(model, state, lag, before):
+    """Bring velocities that stand `before` (s) behind the places to where they stand `lag` behind. True when they have moved.
+
+    Not for a much longer step: what the last short one gained is no measure of it.
+    """
+    if lag == 0.0 or before == 0.0 or abs(lag - before) <= 1e-9 * before or lag > LENGTHENED * before:
+        return False
+    share = lag / before
+    for k in range(3):
+        for i in range(model.size):
+            state.velocity[k, i] += (1.0 - share) * state.lead[k, i]
+            state.lead[k, i] *= share
+    return True
 
 
 @stage
@@ -240,7 +257,7 @@ def advance(model, state, scratch, table, time, pose, twist, report):
         start = chunk / chunks
         source = min(chunk, 1)
         save(model, state, scratch, source)
-        refined, again = settings[3], False
+        refined, again, lag = settings[3], False, settings[8]
         now = state.clock[0] + start * duration
         if model.sea.frequency.size > 0 and outdated(state.window_times, now, now + span):
             if not looked_ahead:
@@ -253,7 +270,7 @@ def advance(model, state, scratch, table, time, pose, twist, report):
             h = span / steps
             adapt(model, state, h / table[row, 2], 0.5 * h if table[row, 0] <= LEAPFROG else 0.0)
             look_at_surface(model, state, SURFACE_MARGIN + model.bulk + span * max(LIKELY_SPEED, ends))
-            if again:
+            if stagger(model, state, settings[8], lag) or again:
                 settings[6] = state.clock[0] + start * duration + 0.5 * h
                 evaluate_again(model, state, scratch)
             tensions = take_steps(model, state, scratch, int(table[row, 0]), h, steps, start, 1.0 / (steps * chunks))
