@@ -159,7 +159,7 @@ def as_from_zero(scene, motion, track):
 def as_evenly_sampled(scene, motion, track):
     even = sway((2.0, 0.0, 1.0), 6.0, 12.0)
     _, history = ours(scene, even)
-    return same_history(Track(track.times, track.fairlead), track_of(history), 0.03)
+    return same_history(Track(track.times, track.fairlead), track_of(history), 0.05)
 
 
 def parted(scene, motion, track):

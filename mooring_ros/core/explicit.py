@@ -25,7 +25,6 @@ FINEST = 64.0  # times finer than the largest step a chunk is tried, before its 
 JUMP = 0.1  # of the tension and the line's weight: the change of a tension, from Euler steps to their mean, that is too much
 AXIAL_JUMP = 0.15  # the same for the scheme `AXIAL`, whose steps are long
 GENTLE = 0.3  # of the lines' weight: the tension that the platform may cause in a step of the scheme `AXIAL` by what it gains in speed
-LENGTHENED = 2.5  # times the step before: longer ones begin with the velocities there are
 MOST_REFINED = 8.0  # times finer steps for that cause; a jump that stays is one of the line, not of the scheme
 REFINED_STEPS = 40.0  # largest steps for which a finer step is kept
 DRAG_SAFETY = 0.9  # of the Euler step at which drag would turn a velocity round
@@ -61,11 +60,8 @@ def adapt(model, state, euler_step, lag):
 
 @stage
 def stagger(model, state, lag, before):
-    """Bring velocities that stand `before` (s) behind the places to where they stand `lag` behind. True when they have moved.
-
-    Not for a much longer step: what the last short one gained is no measure of it.
-    """
-    if lag == 0.0 or before == 0.0 or abs(lag - before) <= 1e-9 * before or lag > LENGTHENED * before:
+    """Bring velocities that stand `before` (s) behind the places to where they stand `lag` behind. True when they have moved."""
+    if lag == 0.0 or before == 0.0 or abs(lag - before) <= 1e-9 * before:
         return False
     share = lag / before
     for k in range(3):
