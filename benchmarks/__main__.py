@@ -33,9 +33,12 @@ BENCHMARKS = {
     "fidelity": "the linear fidelity beyond its range, and the estimate of a mooring's error, against the truth (two minutes)",
     "node_latency": "the ROS 2 node: input stamp to wrench, against an empty echo node",
 }
-MODULES = {"node_latency": "latency_table", "extremes": "extremes.report"}  # where it is not the name itself
+# Where it is not the name itself.
+MODULES = {"node_latency": "latency_table", "extremes": "extremes.report"}
+# Those whose module has `add_arguments(parser)`, for options of their own behind their name: `bench NAME --minutes 10`.
+WITH_OPTIONS = ()
 DOCS = Path(__file__).parent.parent / "docs"
-DOCUMENTS = tuple(DOCS / name for name in ("measurements.md", "physics.md", "trades.md", "trade.md", "growth.md", "fidelity.md", "extremes.md"))
+DEFAULT_DOCUMENT = DOCS / "measurements.md"
 
 
 def arguments(argv):
@@ -46,18 +49,30 @@ def arguments(argv):
     parser.add_argument("--quick", action="store_true", help="fewer settings, shorter runs; figures are rougher")
     parser.add_argument("-o", "--output", type=Path, default=Path("out/bench"), metavar="DIR", help="where the JSON results go (default: %(default)s)")
     parser.add_argument("--docs", action="store_true", help="put the tables and pictures into docs/")
+    common = {action.dest for action in parser._actions}
+    first = argv[0] if argv else None
+    if first in WITH_OPTIONS:
+        load(first).add_arguments(parser.add_argument_group(f"of {first} alone"))
     chosen = parser.parse_args(argv)
+    chosen.options = {name: value for name, value in vars(chosen).items() if name not in common}
+    if first in WITH_OPTIONS and len(chosen.names) > 1:
+        parser.error(f"{first} has options of its own, expected no other name with it")
     unknown = [name for name in chosen.names if name not in BENCHMARKS]
     if unknown:
         parser.error(f"no benchmark is called {unknown[0]}; there are: {', '.join(BENCHMARKS)}")
     return chosen
 
 
+def load(name):
+    """The module of a benchmark. Raises ModuleNotFoundError when it, or a peer, is not installed."""
+    return importlib.import_module(f".{MODULES.get(name, name)}", __package__)
+
+
 def document(contents, pictures, sentence):
     """Put tables (name -> Markdown) between their markers in the documents, and pictures (file name -> figure) beside them."""
-    texts = {path: path.read_text(encoding="utf-8") for path in DOCUMENTS}
+    texts = {path: path.read_text(encoding="utf-8") for path in sorted(DOCS.glob("*.md"))}
     for key, content in contents.items():
-        path = next((p for p, text in texts.items() if f"<!-- {key} -->" in text), DOCUMENTS[0])
+        path = next((p for p, text in texts.items() if f"<!-- {key} -->" in text), DEFAULT_DOCUMENT)
         texts[path] = tables.refresh(texts[path], key, f"{content}\n\n{sentence}")
     for path, text in texts.items():
         path.write_text(text, encoding="utf-8")
@@ -65,9 +80,18 @@ def document(contents, pictures, sentence):
         figure.savefig(DOCS / "images" / name, dpi=110)
 
 
+def lacking(missing):
+    """Say which package a benchmark lacks; the exit status."""
+    print(f"bench: the package {missing.name} is not installed; ./run bench installs the peers", file=sys.stderr)
+    return 2
+
+
 def main(argv=None):
     """0 all goals reached, 1 a goal missed or a benchmark failed, 2 bad usage, 130 interrupted."""
-    chosen = arguments(argv)
+    try:
+        chosen = arguments(sys.argv[1:] if argv is None else argv)
+    except ModuleNotFoundError as missing:
+        return lacking(missing)
     facts = machine.describe()
     print(machine.sentence(facts), flush=True)
     chosen.output.mkdir(parents=True, exist_ok=True)
@@ -75,11 +99,10 @@ def main(argv=None):
     for name in chosen.names or BENCHMARKS:
         print(f"\n== {name}: {BENCHMARKS[name]}", flush=True)
         try:
-            module = importlib.import_module(f".{MODULES.get(name, name)}", __package__)
+            module = load(name)
         except ModuleNotFoundError as missing:
-            print(f"bench: {name} needs the package {missing.name}, which is not installed; ./run bench installs the peers", file=sys.stderr)
-            return 2
-        result = module.run(chosen.quick)
+            return lacking(missing)
+        result = module.run(chosen.quick, **chosen.options)
         result["machine"] = facts
         pictures = result.pop("figures", {})
         (chosen.output / f"{name}.json").write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
