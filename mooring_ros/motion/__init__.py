@@ -4,7 +4,8 @@ from .convention_check import ConventionCheck, Verdict
 from .frames import Adapter, twist_axes
 from .gate import Gate, Limits, Motion, Sample
 from .pairing import Pairs
+from .prediction import Predictor, carry_on
 from .velocity import OnlineTwist, twist_from_poses
 
-__all__ = ["Adapter", "ConventionCheck", "Gate", "Limits", "Motion", "OnlineTwist", "Pairs", "Sample", "Verdict", "twist_axes",
-           "twist_from_poses"]
+__all__ = ["Adapter", "ConventionCheck", "Gate", "Limits", "Motion", "OnlineTwist", "Pairs", "Predictor", "Sample", "Verdict", "carry_on",
+           "twist_axes", "twist_from_poses"]
