@@ -235,6 +235,7 @@ def balance_step(model, state, scratch, plan, work, scheme, h, end, tolerance):
             return NEWTON_DONE, iteration, evaluations
         if not (largest < np.inf and merit < np.inf):
             return NOT_BALANCED, iteration, evaluations
+        before = largest
         tangent(model, state, scratch, plan, work, c_v, c_m)
         if solve_blocks(plan, work.values, work.right) != SOLVED:
             return NOT_BALANCED, iteration, evaluations
@@ -248,7 +249,7 @@ def balance_step(model, state, scratch, plan, work, scheme, h, end, tolerance):
             largest = out_of_balance(model, state, scratch, plan, work.balance)
             new = mixed_merit(model, state, plan, work.axial, work.damper, work.foreseen, work.linear, work.balance, work.left)
             evaluations += 1
-            if largest <= TOLERANCE or new <= (WORSE if iteration < BOLD else 1.0) * merit or search == SEARCHES:
+            if largest <= TOLERANCE or new <= (WORSE if iteration < BOLD else 1.0) * max(merit, before) or search == SEARCHES:
                 break
             share *= 0.5
             apply(model, state, plan, work, -share, c_v, c_m, c_a)
