@@ -8,6 +8,7 @@ at both ends of the step.
 
 import numpy as np
 
+from mooring_ros.coupling.schemes import Extrapolated
 from mooring_ros.demo.floater import quaternion_rate
 
 
@@ -23,7 +24,7 @@ class Integrator:
         self.pose, self.twist = np.array(pose, float), np.array(twist, float)
         self.count = 0
         self._wave = excitation(0.0)
-        self._last = None
+        self._mooring = Extrapolated()
 
     @property
     def time(self):
@@ -32,7 +33,8 @@ class Integrator:
     def advance(self, mooring_wrench):
         """One step, given the mooring wrench (6,) at the present time. Raises ArithmeticError when the state is not finite."""
         wrench = np.asarray(mooring_wrench, float)
-        ahead = wrench if self._last is None else 2.0 * wrench - self._last
+        self._mooring.take(self.time, self.pose, self.twist, wrench)
+        ahead = self._mooring.ahead(self.step)
         next_wave = self.excitation((self.count + 1) * self.step)
         pose_rate, twist_rate = self._rates(self.pose, self.twist, wrench + self._wave)
         trial_pose = _normalised(self.pose + self.step * pose_rate)
@@ -42,7 +44,7 @@ class Integrator:
         twist = self.twist + 0.5 * self.step * (twist_rate + end_twist_rate)
         if not (np.isfinite(pose).all() and np.isfinite(twist).all()):
             raise ArithmeticError(f"the floater's motion is not finite after {self.time + self.step:.3f} s")
-        self.pose, self.twist, self._wave, self._last = pose, twist, next_wave, wrench
+        self.pose, self.twist, self._wave = pose, twist, next_wave
         self.count += 1
 
     def _rates(self, pose, twist, wrench):

@@ -6,7 +6,6 @@ silent, or the motion ran away; 2 bad usage; 130 stopped by Ctrl-C or SIGTERM.
 """
 
 import argparse
-import itertools
 import json
 import signal
 import sys
@@ -17,15 +16,14 @@ import rclpy
 from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 
+from mooring_ros.coupling import Coupling, LinkError, Stopped
 from mooring_ros.demo.floater import Floater
 from mooring_ros.demo.hull import volturnus_s
 from mooring_ros.demo.integrator import Integrator
-from mooring_ros.demo.link import LinkError, MooringLink, Stopped
 from mooring_ros.demo.options import add_sea_arguments, sea_state
 from mooring_ros.demo.waves import Excitation, Waves
 from mooring_ros.offline.arguments import positive
 
-_MOST_LOST = 3  # answers missing in a row
 _REPORT_EVERY = 0.2  # s of wall time between progress reports
 
 
@@ -49,37 +47,27 @@ class Summary:
     round_trips: list
 
 
-def run(link, integrator, steps, stamps, timeout, patience, report=lambda time: None):
+def run(coupling, integrator, steps, report=lambda time: None):
     """Couple for so many steps; the floater begins at rest, trimmed under the moorings' first answer.
 
-    stamps: iterator of ns, one a sample; timeout: s, for the node to appear; patience: s, for each answer; report: called now and then with the simulated time.
+    coupling: Coupling of the integrator's step; report: called now and then with the simulated time.
     Returns the Summary. Raises LinkError, Stopped, ArithmeticError.
     """
-    link.wait_for_mooring(timeout)
-    wrench = link.greet(stamps, integrator.pose, timeout)
-    integrator.floater.trim(wrench)
+    integrator.floater.trim(coupling.begin(integrator.pose))
     started, next_report = time.perf_counter(), 0.0
-    start_stamp, round_trips, missing = None, [], 0
+    start_stamp, round_trips = None, []
     for number in range(steps + 1):
-        stamp = next(stamps)
-        start_stamp = stamp if start_stamp is None else start_stamp
-        link.send(stamp, integrator.pose, integrator.twist)
-        answer = link.answer(stamp, patience)
-        if answer is None:
-            missing += 1
-            if missing == _MOST_LOST or not link.heard:
-                raise LinkError(f"the mooring node stopped answering at {integrator.time:.2f} s")
-        else:
-            missing = 0
-            wrench, round_trip = answer
-            round_trips.append(1e3 * round_trip)
+        coupling.exchange(integrator.pose, integrator.twist)
+        start_stamp = coupling.stamp if start_stamp is None else start_stamp
+        if coupling.round_trip is not None:
+            round_trips.append(1e3 * coupling.round_trip)
         if time.perf_counter() >= next_report or number == steps:
             next_report = time.perf_counter() + _REPORT_EVERY
             report(integrator.time)
         if number < steps:
-            integrator.advance(wrench)
+            integrator.advance(coupling.wrench)
     return Summary(
-        start_stamp, integrator.step, steps, **asdict(link.counts), wall_time=time.perf_counter() - started,
+        start_stamp, integrator.step, steps, **asdict(coupling.counts), wall_time=time.perf_counter() - started,
         ballast=integrator.floater.ballast.tolist(), round_trips=[round(value, 4) for value in round_trips],
     )
 
@@ -93,14 +81,15 @@ def main(argv=None):
         signal.signal(number, lambda *_: stopping.append(True))
     rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
     node = rclpy.create_node("floater")
-    link = MooringLink(node, stop=lambda: bool(stopping))
+    step = 1.0 / options.rate
+    coupling = Coupling(step, timeout=options.timeout, patience=options.patience, node=node, stop=lambda: bool(stopping))
     try:
         waves = Waves(sea_state(options), options.depth)
-        integrator = Integrator(Floater(), Excitation(waves, volturnus_s()), 1.0 / options.rate)
+        integrator = Integrator(Floater(), Excitation(waves, volturnus_s()), step)
         steps = max(1, round(options.duration * options.rate))
         if not options.json:
-            print(f"waiting for a mooring node on {link.topics}", flush=True)
-        summary = run(link, integrator, steps, _stamps(options.rate), options.timeout, options.patience, _reporter(options))
+            print(f"waiting for a mooring node on {coupling.topics}", flush=True)
+        summary = run(coupling, integrator, steps, _reporter(options))
         if options.summary:
             with open(options.summary, "w", encoding="utf-8") as file:
                 json.dump(asdict(summary), file)
@@ -111,14 +100,9 @@ def main(argv=None):
     except Stopped:
         return 130
     finally:
-        link.close()
+        coupling.close()
         node.destroy_node()
         rclpy.try_shutdown()
-
-
-def _stamps(rate):
-    """Stamps in ns, evenly spaced; a stamp of zero means "not set" in ROS, so they begin at one second."""
-    return (1_000_000_000 + round(number * 1e9 / rate) for number in itertools.count())
 
 
 def _reporter(options):

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-STAND_IN = Path(__file__).with_name("stand_in_mooring.py")
-ROOT = STAND_IN.parents[2]
+STAND_IN = Path(__file__).parents[1] / "coupling" / "stand_in_mooring.py"
+ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture
@@ -64,7 +64,7 @@ def test_a_mooring_that_falls_silent_ends_the_run_with_a_clear_word(environment)
     with stand_in(environment, "--silent-after", "10"):
         done = run(environment, "--duration", "5", "--patience", "0.3")
     assert done.returncode == 1
-    assert "the mooring node stopped answering at 0." in done.stderr and "Traceback" not in done.stderr
+    assert "the mooring node stopped answering at 1." in done.stderr and "Traceback" not in done.stderr
 
 
 def test_without_a_mooring_node_it_says_what_it_waited_for(environment):

@@ -1,9 +1,10 @@
-"""The floater's side of the coupling over ROS: Odometry out, wrenches in, one answer to each sample.
+"""The simulator's side of the coupling over ROS: Odometry out, wrenches in, one answer to each sample.
 
 Samples carry simulated time. A stamp is never sent twice: to the mooring node that would be a repeated input. Answers are
 matched by their stamp; what is missing, comes twice or comes too late is counted.
 """
 
+import math
 import time
 from dataclasses import dataclass
 
@@ -15,12 +16,13 @@ from nav_msgs.msg import Odometry
 from rclpy.experimental.events_executor import EventsExecutor
 from rclpy.qos import QoSProfile
 
-from mooring_ros.demo.floater import rotation_matrix
+from mooring_ros.motion import rotation
 
 ODOMETRY_TOPIC = "platform/odom"
-WRENCH_TOPIC = "mooring/wrench"
-STATE_SERVICE = "mooring/get_state"
+MOORING = "mooring"
+WORLD, PLATFORM = "world", "platform"
 _POLL = 0.1  # s, how long a wait may go on before it looks whether to stop
+_AT_ONCE = 20  # messages that are taken without waiting
 _LONGEST_UNCONFIGURED = 3.0  # s; while it configures, the node does not say its state
 
 
@@ -44,26 +46,30 @@ class Counts:
 
 
 class MooringLink:
-    """Publishes `platform/odom` and takes `mooring/wrench` on a rclpy node.
+    """Publishes the platform's Odometry and takes the mooring's wrench on a rclpy node.
 
-    stop: called without arguments, tells whether to stop; waits then raise Stopped. counts: Counts.
+    stop: called without arguments, tells whether to stop; waits then raise Stopped. odometry: topic; mooring: name of the mooring node;
+    world, platform: frames in the headers. counts: Counts.
     """
 
-    def __init__(self, node, stop):
+    def __init__(self, node, stop=lambda: False, odometry=ODOMETRY_TOPIC, mooring=MOORING, world=WORLD, platform=PLATFORM):
         self.counts = Counts()
-        self._node, self._stop = node, stop
-        self._publisher = node.create_publisher(Odometry, ODOMETRY_TOPIC, QoSProfile(depth=10))
-        self._subscription = node.create_subscription(WrenchStamped, WRENCH_TOPIC, self._take, QoSProfile(depth=10))
-        self._executor = EventsExecutor()
+        self._node, self._stop, self._mooring = node, stop, mooring
+        self._world, self._platform = world, platform
+        self._publisher = node.create_publisher(Odometry, odometry, QoSProfile(depth=10))
+        self._subscription = node.create_subscription(WrenchStamped, f"{mooring}/wrench", self._take, QoSProfile(depth=10))
+        self._executor = EventsExecutor(context=node.context)
         self._executor.add_node(node)
-        self._sent = {}  # stamp -> perf_counter of sending, for samples not answered yet
+        self._sent = {}  # stamp -> (perf_counter of sending, quaternion), for samples not answered yet
         self._answers = {}  # stamp -> (wrench, round trip in s)
         self._given_up = set()  # stamps
+        self._before = set()  # stamps of samples that nothing is counted of
+        self._problem = ""
 
     def wait_for_mooring(self, timeout):
         """Wait until the node listens and speaks. Raises LinkError after timeout (s), or when it stays unconfigured; Stopped."""
         end = time.monotonic() + timeout
-        state = _NodeState(self._node)
+        state = _NodeState(self._node, self._mooring)
         missing = f"nobody answers on {self.topics}"
         while not (self._publisher.get_subscription_count() and self._subscription.get_publisher_count()):
             self._check(end, missing, timeout)
@@ -79,7 +85,8 @@ class MooringLink:
         """Send the pose (7,) at rest, at one stamp (ns) of the iterator after the other, until one is answered.
 
         Being discovered is not yet being heard: an answer may be sent before this side can hear it. Unanswered samples are followed
-        by later ones, each after a while (patience, s), and not counted. Returns the wrench (6,). Raises LinkError after timeout (s), Stopped.
+        by later ones, each after a while (patience, s), and not counted. Returns the stamp that was answered and its wrench (6,).
+        Raises LinkError after timeout (s), Stopped.
         """
         end = time.monotonic() + timeout
         while True:
@@ -89,32 +96,53 @@ class MooringLink:
                 self._check(end, "the mooring node does not answer", timeout)
                 self._executor.spin_once(timeout_sec=_POLL)
             if self._answers:
-                wrench, _ = self._answers.popitem()[1]
-                self.counts = Counts()
-                return wrench
+                return self.first_answer()
             self._check(end, "the mooring node does not answer", timeout)
 
     def send(self, stamp, pose, twist):
-        """Publish a sample: stamp ns, pose (7,), twist (6,) in the world frame (the message's is in the platform's, as ROS wants it)."""
+        """Publish a sample: stamp ns, pose (7,), twist (6,) in the world frame (the message's is in the platform's, as ROS wants it).
+
+        Raises ValueError for what is no motion; the mooring node would refuse it.
+        """
+        pose, twist = checked(pose, 7, "pose"), checked(twist, 6, "twist")
         message = Odometry()
-        message.header.frame_id, message.child_frame_id = "world", "platform"
+        message.header.frame_id, message.child_frame_id = self._world, self._platform
         message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp, 1_000_000_000)
         position, orientation = message.pose.pose.position, message.pose.pose.orientation
-        position.x, position.y, position.z, orientation.x, orientation.y, orientation.z, orientation.w = map(float, pose)
-        to_body = rotation_matrix(pose[3:7]).T
+        position.x, position.y, position.z, orientation.x, orientation.y, orientation.z, orientation.w = pose
+        to_body = rotation.conjugate(pose[3:])
         linear, angular = message.twist.twist.linear, message.twist.twist.angular
-        linear.x, linear.y, linear.z = (to_body @ twist[:3]).tolist()
-        angular.x, angular.y, angular.z = (to_body @ twist[3:]).tolist()
+        linear.x, linear.y, linear.z = rotation.rotate(to_body, twist[:3])
+        angular.x, angular.y, angular.z = rotation.rotate(to_body, twist[3:])
         self.counts.sent += 1
-        self._sent[stamp] = time.perf_counter()
+        self._sent[stamp] = time.perf_counter(), pose[3:]
         self._publisher.publish(message)
 
+    def first_answer(self):
+        """Stamp and wrench (6,) of the newest answer there is, without waiting, or None. With it the counting begins."""
+        self.listen()
+        if not self._answers:
+            return None
+        stamp = max(self._answers)
+        wrench, _ = self._answers[stamp]
+        self._begin()
+        return stamp, wrench
+
+    def listen(self):
+        """Take what has arrived, without waiting. Raises Stopped, LinkError for a wrench in a frame of its own."""
+        self._look()
+        for _ in range(_AT_ONCE):
+            self._executor.spin_once(timeout_sec=0.0)
+        self._look()
+
     def answer(self, stamp, timeout):
-        """The (wrench (6,), round trip in s) that answers the sample of this stamp, or None when none came within timeout (s)."""
+        """The (wrench (6,), round trip in s) that answers the sample of this stamp, or None when none came within timeout (s).
+
+        Raises LinkError for a wrench in a frame that is neither the world's nor the platform's; Stopped.
+        """
         end = time.monotonic() + timeout
         while stamp not in self._answers:
-            if self._stop():
-                raise Stopped
+            self._look()
             left = end - time.monotonic()
             if left <= 0.0:
                 self.counts.lost += 1
@@ -143,19 +171,40 @@ class MooringLink:
         stamp = message.header.stamp.sec * 1_000_000_000 + message.header.stamp.nanosec
         sent = self._sent.pop(stamp, None)
         if sent is None:
-            if stamp in self._given_up:
+            if stamp in self._before:
+                self._before.remove(stamp)
+            elif stamp in self._given_up:
                 self._given_up.remove(stamp)
                 self.counts.late += 1
             else:
                 self.counts.doubled += 1
             return
-        force, torque = message.wrench.force, message.wrench.torque
-        wrench = np.array([force.x, force.y, force.z, torque.x, torque.y, torque.z])
-        self._answers[stamp] = wrench, time.perf_counter() - sent
+        began, quaternion = sent
+        force, torque, frame = message.wrench.force, message.wrench.torque, message.header.frame_id
+        parts = (force.x, force.y, force.z), (torque.x, torque.y, torque.z)
+        if frame == self._platform:
+            parts = tuple(rotation.rotate(quaternion, part) for part in parts)
+        elif frame != self._world:
+            self._problem = f"the wrench is in frame '{frame}', expected '{self._world}' or '{self._platform}'"
+            return
+        self._answers[stamp] = np.array(parts).ravel(), time.perf_counter() - began
 
-    def _check(self, end, missing, timeout):
+    def _begin(self):
+        """What was sent until now is neither lost nor late, whenever its answers come."""
+        self.counts = Counts()
+        self._before.update(self._sent)
+        self._sent.clear()
+        self._answers.clear()
+        self._given_up.clear()
+
+    def _look(self):
         if self._stop():
             raise Stopped
+        if self._problem:
+            raise LinkError(self._problem)
+
+    def _check(self, end, missing, timeout):
+        self._look()
         if time.monotonic() >= end:
             raise LinkError(f"{missing}, waited {timeout:g} s")
 
@@ -163,9 +212,9 @@ class MooringLink:
 class _NodeState:
     """Asks a lifecycle node for its state again and again; one that has no such service is never unconfigured."""
 
-    def __init__(self, node):
+    def __init__(self, node, mooring):
         self._node = node
-        self._client = node.create_client(GetState, STATE_SERVICE)
+        self._client = node.create_client(GetState, f"{mooring}/get_state")
         self._question = None
         self._since = None
 
@@ -186,3 +235,11 @@ class _NodeState:
 
     def close(self):
         self._node.destroy_client(self._client)
+
+
+def checked(values, size, name):
+    """A tuple of so many finite floats."""
+    numbers = tuple(map(float, values))
+    if len(numbers) != size or not math.isfinite(sum(numbers)):
+        raise ValueError(f"{name} is {numbers}, expected {size} finite numbers")
+    return numbers

@@ -1,6 +1,7 @@
 """A linear spring in the place of the mooring node; run as a script. Misbehaves when told to, at a given sample."""
 
 import argparse
+import time
 
 import numpy as np
 import rclpy
@@ -16,8 +17,11 @@ def main():
     parser.add_argument("--drop", type=int, default=-1)
     parser.add_argument("--double", type=int, default=-1)
     parser.add_argument("--silent-after", type=int, default=10**9)
+    parser.add_argument("--frame", default="world")
+    parser.add_argument("--begin-after", type=float, default=0.0)
     parser.add_argument("--unconfigured", action="store_true")
     options = parser.parse_args()
+    time.sleep(options.begin_after)
     rclpy.init()
     node = rclpy.create_node("mooring")
     if options.unconfigured:
@@ -35,6 +39,7 @@ def main():
         position = message.pose.pose.position
         force = -7.19e4 * np.array([position.x, position.y, position.z]) + [0.0, 0.0, -6.08e6]
         reply = WrenchStamped(header=message.header)
+        reply.header.frame_id = options.frame
         reply.wrench.force.x, reply.wrench.force.y, reply.wrench.force.z = force.tolist()
         for _ in range(2 if number == options.double else 1):
             publisher.publish(reply)
