@@ -2,10 +2,10 @@
 
 from .convention_check import ConventionCheck, Verdict
 from .frames import Adapter, twist_axes
-from .gate import Gate, Limits, Motion, Sample
+from .gate import Gate, Limits, Motion, Sample, Velocity
 from .pairing import Pairs
 from .prediction import Predictor, carry_on
 from .velocity import OnlineTwist, twist_from_poses
 
-__all__ = ["Adapter", "ConventionCheck", "Gate", "Limits", "Motion", "OnlineTwist", "Pairs", "Predictor", "Sample", "Verdict", "carry_on",
+__all__ = ["Adapter", "ConventionCheck", "Gate", "Limits", "Motion", "OnlineTwist", "Pairs", "Predictor", "Sample", "Velocity", "Verdict", "carry_on",
            "twist_axes", "twist_from_poses"]

@@ -3,12 +3,12 @@ import math
 
 from mooring_ros.motion import rotation
 
-_REST = (0.0,) * 6
+REST = (0.0,) * 6
 # Twists further apart than this (s) say nothing about the acceleration now.
 _LONGEST_DIFFERENCE = 5.0
 
 
-def carry_on(pose, twist, seconds, acceleration=_REST):
+def carry_on(pose, twist, seconds, acceleration=REST):
     """The pose (7,) and twist (6,) reached after some seconds at constant acceleration.
 
     pose: m and unit quaternion. twist: m/s and rad/s, acceleration (6,): m/s² and rad/s², both in world axes. Exact for a motion
@@ -20,6 +20,13 @@ def carry_on(pose, twist, seconds, acceleration=_REST):
     q = rotation.multiply(turn, pose[3:])
     norm = math.hypot(*q)
     return (*position, *(c / norm for c in q)), tuple(v + seconds * a for v, a in zip(twist, acceleration))
+
+
+def acceleration_between(time, twist, later, later_twist):
+    """Mean acceleration (6,) between twists (6,) at two times (s); none where the second is not later, or too much later to say anything."""
+    if not 0.0 < later - time <= _LONGEST_DIFFERENCE:
+        return REST
+    return tuple((new - old) / (later - time) for new, old in zip(later_twist, twist))
 
 
 class Predictor:
@@ -39,7 +46,7 @@ class Predictor:
         """(time + delay, pose (7,), twist (6,)) for a sample at time (s), with its acceleration (6,) if that is known."""
         pose, twist = tuple(pose), tuple(twist)
         if acceleration is None:
-            acceleration = self._difference(time, twist)
+            acceleration = acceleration_between(*self._last, time, twist) if self._last else REST
         self._last = time, twist
         if self.delay == 0.0:
             return time, pose, twist
@@ -48,9 +55,3 @@ class Predictor:
     def restart(self):
         """Forget the last sample: the platform has been put elsewhere."""
         self._last = None
-
-    def _difference(self, time, twist):
-        if self._last is None or not 0.0 < time - self._last[0] <= _LONGEST_DIFFERENCE:
-            return _REST
-        before, old = self._last
-        return tuple((new - last) / (time - before) for new, last in zip(twist, old))

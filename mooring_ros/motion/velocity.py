@@ -2,6 +2,8 @@
 import numpy as np
 
 from mooring_ros.motion import rotation
+from mooring_ros.motion.prediction import REST
+from mooring_ros.motion.tracking import Estimate
 
 _STENCIL = 5
 
@@ -62,24 +64,32 @@ def _turns(q_from, q_to):
 
 
 class OnlineTwist:
-    """Twist at the newest of the poses seen so far, from the last three of them: second order, nothing from the future."""
+    """Twist at the newest of the poses seen so far, from the last three of them: second order, nothing from the future, nothing against noise.
+
+    `propose` says what a pose would give, `take` goes there, as in tracking.PoseFilter.
+    """
 
     def __init__(self):
-        self._samples = []
+        self._older = []
 
-    def update(self, time, pose):
-        """Take a pose (7,) at a time (s) later than the last; returns the twist (6,) there. The first pose gives zero."""
-        older = self._samples
-        self._samples = (older + [(time, tuple(pose))])[-3:]
+    def propose(self, time, pose):
+        """The Estimate for a pose (7,) at a time (s) later than the last. The first pose is at rest, the second has no acceleration."""
+        older = self._older
         if not older:
-            return (0.0,) * 6
-        near = self._difference(older[-1][1], pose)
+            return Estimate(time, tuple(pose), REST, REST)
+        near = self._difference(older[-1].pose, pose)
+        h1 = time - older[-1].time
         if len(older) == 1:
-            return tuple(change / (time - older[-1][0]) for change in near)
-        h1, h2 = time - older[-1][0], time - older[-2][0]
-        far = self._difference(older[-2][1], pose)
-        near_weight, far_weight = h2 / (h1 * (h2 - h1)), -h1 / (h2 * (h2 - h1))
-        return tuple(near_weight * a + far_weight * b for a, b in zip(near, far))
+            return Estimate(time, tuple(pose), tuple(change / h1 for change in near), REST)
+        h2 = time - older[-2].time
+        far = self._difference(older[-2].pose, pose)
+        scale = 1.0 / (h1 * h2 * (h2 - h1))
+        return Estimate(time, tuple(pose), tuple(scale * (h2 * h2 * a - h1 * h1 * b) for a, b in zip(near, far)),
+                        tuple(2.0 * scale * (h2 * a - h1 * b) for a, b in zip(near, far)))
+
+    def take(self, estimate):
+        """Go on from an Estimate that was proposed."""
+        self._older = (self._older + [estimate])[-2:]
 
     @staticmethod
     def _difference(old, pose):

@@ -1,0 +1,126 @@
+"""Poses as camera systems send them: what becomes of noise, bunched stamps, lost frames, and frames without the platform."""
+import numpy as np
+import pytest
+import recorded
+
+from mooring_ros.motion import Adapter, Gate, Limits, Velocity
+
+PERIOD = 1.0 / recorded.RATE
+SETTLED = 100           # frames after which a filter has forgotten its start
+
+
+def gate(rate=recorded.RATE, bandwidth=12.0, scale=50.0, **limits):
+    return Gate(Adapter(scale=scale), Limits(**limits), velocity=Velocity(rate, bandwidth))
+
+
+def run(the_gate, made):
+    """(Frame, Motion) of all that is admitted."""
+    return [(frame, motion) for frame in made if (motion := the_gate.admit(frame.sample)) is not None]
+
+
+def label_errors(admitted):
+    """s, by how much frame times are off, their mean left out: how long the way takes at least, nobody can know."""
+    first = admitted[0][1].time
+    off = np.array([(motion.time - first) * 1e-9 - frame.time for frame, motion in admitted])[SETTLED:]
+    return off - np.median(off)
+
+
+def velocity_error(admitted):
+    """m/s at the source's scale, rms, beside the true velocity at the time that the frame was taken."""
+    off = [np.subtract(motion.twist[:3], 50.0 ** 0.5 * frame.twist[:3]) for frame, motion in admitted[SETTLED:]]
+    return np.sqrt(np.mean(np.square(off))) / 50.0 ** 0.5
+
+
+@pytest.mark.parametrize("disturbed", [lambda made: made, recorded.late, recorded.bunched, recorded.skipped],
+                         ids=["as taken", "late", "bunched", "skipped"])
+def test_velocities_of_noisy_poses_are_as_good_however_their_stamps_come(disturbed):
+    made = recorded.frames()
+    quiet = velocity_error(run(gate(), made))
+    assert quiet < 0.01         # of 0.25 m/s; three differenced poses give 0.06
+    the_gate = gate()
+    admitted = run(the_gate, disturbed(made))
+    assert len(admitted) == the_gate.received and velocity_error(admitted) < 1.3 * quiet
+
+
+def test_frames_that_were_bunched_get_their_own_times_back():
+    the_gate = gate()
+    admitted = run(the_gate, recorded.bunched(recorded.frames()))
+    assert np.abs(label_errors(admitted)).max() < 0.1 * PERIOD
+    assert the_gate.frame_clock.late > 50 and the_gate.frame_clock.skipped == 0
+
+
+def test_frames_after_lost_ones_get_their_own_times():
+    the_gate = gate()
+    admitted = run(the_gate, recorded.skipped(recorded.frames()))
+    off = np.abs(label_errors(admitted))
+    # where the platform turns round, one frame after a gap may be taken for a late one
+    assert np.mean(off > 0.5 * PERIOD) < 0.01
+    lost = round((admitted[-1][0].time - admitted[0][0].time) * recorded.RATE) + 1 - len(admitted)
+    assert the_gate.frame_clock.skipped == lost > 60
+
+
+def test_of_a_platform_at_rest_one_frame_after_a_gap_is_labelled_early_at_most():
+    admitted = run(gate(), recorded.skipped(recorded.frames(moving=False)))
+    off = np.abs(label_errors(admitted)) > 0.5 * PERIOD
+    assert not (off[1:] & off[:-1]).any()
+
+
+def test_without_a_rate_the_twists_of_bunched_stamps_are_refused_not_believed():
+    the_gate = gate(rate=0.0)
+    admitted = run(the_gate, recorded.bunched(recorded.frames()))
+    assert the_gate.rejected["jump"] > 30 and "from the poses" in the_gate.cause
+    assert max(abs(motion.twist[0]) for _, motion in admitted) < 10.0 + 50.0 ** 0.5 * 0.26
+
+
+@pytest.mark.parametrize("said", [50.0, 220.0, 280.0])
+def test_a_rate_that_is_not_the_sources_does_not_let_the_time_run_away(said):
+    the_gate = gate(rate=said)
+    admitted = run(the_gate, recorded.frames())
+    off = np.array([(motion.time - motion.stamp) * 1e-9 for _, motion in admitted])
+    assert np.abs(off[5:]).max() < 3.0 / said
+    assert said > recorded.RATE or the_gate.rejected["early"] > 20 and "is that the rate?" in the_gate.cause
+
+
+def test_a_first_frame_that_came_late_is_put_right():
+    made = recorded.frames()
+    delays = np.zeros(len(made))
+    delays[0] = 0.03
+    made[0] = recorded.stamped(made, delays)[0]
+    the_gate = gate()
+    admitted = run(the_gate, made)
+    off = np.abs([motion.time - motion.stamp for _, motion in admitted])
+    assert off.max() < 0.5e9 * PERIOD and off[10:].max() < 0.01e9 * PERIOD
+    assert the_gate.rejected["reordered"] == 7
+
+
+@pytest.mark.parametrize("how", [float("nan"), 0.0], ids=["NaN", "zeros"])
+def test_up_to_so_many_frames_without_the_platform_are_bridged_and_then_it_is_lost(how):
+    made = recorded.occluded(recorded.frames(), 300, 12, how)
+    the_gate = gate(lost_frames=10)
+    answers = [the_gate.admit(frame.sample) for frame in made[:310]]
+    bridged = answers[300:]
+    assert all(motion.bridged for motion in bridged) and the_gate.bridged == 10 and not the_gate.lost
+    for frame, motion in zip(made[300:], bridged):
+        assert motion.stamp == frame.sample.stamp
+        np.testing.assert_allclose(motion.pose[:3], 50.0 * frame.pose[:3], atol=50.0 * 1.5e-3)
+    assert the_gate.admit(made[310].sample) is None and the_gate.lost
+    assert sum(the_gate.rejected.values()) == 11
+    assert the_gate.admit(made[311].sample) is None
+    back = the_gate.admit(made[312].sample)
+    assert not the_gate.lost and not back.bridged
+    np.testing.assert_allclose(back.pose[:3], 50.0 * made[312].pose[:3], atol=50.0 * 1e-3)
+
+
+def test_frames_without_the_platform_are_not_bridged_unless_asked_for():
+    the_gate = gate()
+    for frame in recorded.occluded(recorded.frames(1.0), 100, 3)[:103]:
+        motion = the_gate.admit(frame.sample)
+    assert motion is None and not the_gate.lost and the_gate.rejected["non_finite"] == 3
+
+
+def test_a_good_velocity_is_found_again_after_a_long_pause():
+    made = recorded.frames(8.0)
+    the_gate = gate()
+    run(the_gate, made[:500])
+    admitted = run(the_gate, made[1500:])
+    assert velocity_error(admitted) < 0.01
