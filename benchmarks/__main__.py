@@ -32,11 +32,13 @@ BENCHMARKS = {
     "ropes": "a viscoelastic rope, stretched, held and swung, against closed forms and MoorDyn",
     "fidelity": "the linear fidelity beyond its range, and the estimate of a mooring's error, against the truth (two minutes)",
     "node_latency": "the ROS 2 node: input stamp to wrench, against an empty echo node",
+    "faults": "everything that may go wrong around a running node, done to it from outside (five minutes)",
+    "soak": "an hour of the node at 200 Hz with recording: nothing missing, nothing growing, replayed bit for bit",
 }
 # Where it is not the name itself.
-MODULES = {"node_latency": "latency_table", "extremes": "extremes.report"}
-# Those whose module has `add_arguments(parser)`, for options of their own behind their name: `bench NAME --minutes 10`.
-WITH_OPTIONS = ()
+MODULES = {"node_latency": "latency_table", "extremes": "extremes.report", "faults": "faults.campaign", "soak": "faults.soak"}
+# Those whose module has `add_arguments(parser)`, for options of their own behind their name: `bench soak --minutes 10`.
+WITH_OPTIONS = ("faults", "soak")
 DOCS = Path(__file__).parent.parent / "docs"
 DEFAULT_DOCUMENT = DOCS / "measurements.md"
 

@@ -1,0 +1,182 @@
+"""What happens around the source of the motion, and around those who listen."""
+import contextlib
+import math
+import os
+import signal
+import subprocess
+import sys
+import time
+
+from . import motion
+from .judge import Wrong
+from .peer import ODOMETRY, WRENCH
+from .process import ROOT
+from .registry import fault
+from .rig import BEGIN, STEP
+
+SETTLE = "~/settle, once ten samples in a row agree"
+
+
+class Simulator:
+    """benchmarks.faults.simulator as a child. stamps: read so far."""
+
+    def __init__(self, domain, shift=0.0):
+        environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT), *filter(None, [os.environ.get("PYTHONPATH")])])}
+        self._process = subprocess.Popen([sys.executable, "-m", "benchmarks.faults.simulator", str(domain), str(shift)], cwd=ROOT,
+                                         env=environment, stdout=subprocess.PIPE, stdin=subprocess.DEVNULL)
+        self.last = None
+
+    def read(self, count=1):
+        """Wait for so many more samples; returns the stamp (ns) of the last."""
+        for _ in range(count):
+            self.last = int(self._process.stdout.readline())
+        return self.last
+
+    def freeze(self):
+        """Stop it between two samples; returns the stamp of the last."""
+        self._process.send_signal(signal.SIGSTOP)
+        os.set_blocking(self._process.stdout.fileno(), False)
+        time.sleep(0.1)
+        for line in self._process.stdout:
+            self.last = int(line)
+        os.set_blocking(self._process.stdout.fileno(), True)
+        return self.last
+
+    def go_on(self):
+        """After `freeze`."""
+        self._process.send_signal(signal.SIGCONT)
+
+    def kill(self):
+        """SIGKILL."""
+        self._process.kill()
+        self._process.wait()
+        self._process.stdout.close()
+
+
+@contextlib.contextmanager
+def simulator(rig, shift=0.0):
+    """A running Simulator, killed at the end."""
+    child = Simulator(rig.domain, shift)
+    try:
+        yield child
+    finally:
+        child.kill()
+
+
+def _own(rig):
+    """All samples of the simulator may be answered."""
+    for k in range(3000):
+        stamp = BEGIN + k * STEP
+        rig.judge.good[stamp] = motion.at(stamp * 1e-9)
+
+
+@fault("the simulator killed in full run, and restarted from its beginning", SETTLE)
+def simulator_killed(rig):
+    _own(rig)
+    with simulator(rig) as first:
+        first.read(100)
+    rig.peer.wait(lambda: False, 0.2)
+    rig.judged()
+    count = len(rig.peer.heard)
+    with simulator(rig) as second:
+        second.read(1)
+        rig.mark()
+        second.read(20)
+        rig.expect("input", "reordered: stamp")
+        if len(rig.peer.heard) > count:
+            raise Wrong("the restarted simulator was answered before ~/settle")
+        rig.stamp = second.freeze() + STEP
+        rig.settle()
+        second.go_on()
+        second.read(20)
+        rig.answer(second.freeze())
+
+
+@fault("a second simulator at the same time, 5 m off", "end one of them")
+def two_publishers(rig):
+    _own(rig)
+    with simulator(rig) as first:
+        first.read(20)
+        rig.mark()
+        with simulator(rig, 5.0) as second:
+            second.read(30)
+            rig.expect("input", "2 publishers", within=2.0)
+        rig.answer(first.freeze())
+
+
+@fault("a second simulator with the same motion", "end one of them")
+def two_equal_publishers(rig):
+    rig.send(20)
+    other = rig.peer.publisher("/platform/odom", ODOMETRY)
+    while not other.subscriber_count:
+        time.sleep(0.01)
+    time.sleep(0.3)
+    for _ in range(50):
+        stamp, state = rig.stamp, rig.state(rig.stamp)
+        rig.mark()
+        rig.send()
+        other.send(motion.odometry(stamp, state))
+    rig.expect("input", "repeated|publishers", within=1.0)
+    other.close()
+    rig.send(20)
+
+
+@fault("the listener of the wrench goes away and comes back", "none needed: it hears the wrenches from then on")
+def listener_gone(rig):
+    with contextlib.closing(rig.peer._node.subscribe("/mooring/wrench", type_name=WRENCH, reliability="reliable", depth=10)) as other:
+        rig.send(20)
+        if other.read(timeout=2.0) is None:
+            raise Wrong("a second listener hears nothing")
+    rig.send(20)
+
+
+@fault("a listener that never reads", "none needed: the others are answered all the same")
+def listener_asleep(rig):
+    with contextlib.closing(rig.peer._node.subscribe("/mooring/wrench", type_name=WRENCH, reliability="reliable", depth=1)):
+        rig.send(500)
+
+
+@fault("a publisher that is best effort only", "the node asks for reliable ones; `qos_overrides` of the subscription changes it")
+def best_effort_publisher(rig):
+    rig.send(5)
+    other = rig.peer._node.advertise("/platform/odom", ODOMETRY, reliability="best_effort", depth=10)
+    time.sleep(0.5)
+    rig.mark()
+    other.send(motion.odometry(rig.stamp, rig.state(rig.stamp)))
+    rig.expect("input", "reliab|quality of service|QoS", within=1.0)
+    other.close()
+    rig.send(20)
+
+
+@fault("velocities in world axes where the platform's are expected, at 0.6 rad of yaw", "set `twist_frame: world`; ~/settle tries again")
+def wrong_axes(rig):
+    _wrong_twist(rig, lambda v: v, "world")
+
+
+@fault("a NED source where ENU is expected", "set `convention: ned`; ~/settle tries again")
+def ned_twist(rig):
+    _wrong_twist(rig, lambda v: (v[0], -v[1], -v[2]), "NED|ned")
+
+
+def _wrong_twist(rig, given, words):
+    """Motion in circles at a yaw of 0.6 rad, its twist in the wrong axes."""
+    half, rate = 0.3, 2.0 * math.pi / 8.0
+    for _ in range(400):
+        t = (rig.stamp - BEGIN) * 1e-9
+        v = (4.0 * rate * math.cos(rate * t), -3.0 * rate * math.sin(rate * t), 2.0 * rate * math.cos(2.0 * rate * t))
+        pose = (4.0 * math.sin(rate * t), 3.0 * math.cos(rate * t), math.sin(2.0 * rate * t), 0.0, 0.0, math.sin(half), math.cos(half))
+        message = motion.odometry(rig.stamp, motion.State(pose, (*v, 0.0, 0.0, 0.0)))
+        message["twist"]["twist"]["linear"] = dict(zip("xyz", given(v)))
+        rig.peer.odometry.send(message)
+        rig.stamp += STEP
+        if not rig.peer.wait(lambda: rig.peer.heard and rig.peer.heard[-1].stamp == rig.stamp - STEP, 0.2):
+            break
+    else:
+        raise Wrong("400 samples with the twist in other axes were all answered")
+    rig.mark()
+    rig.expect("input", words, level=2)
+    rig._judged = len(rig.peer.heard)   # until it was found out, they were answered as given
+    for _ in range(20):
+        rig.send_at(rig.stamp, good=False)
+        rig.stamp += STEP
+    rig.silence(0.1)
