@@ -46,6 +46,11 @@ class Sink:
         self.committed += done
         self._pending = bytearray()
 
+    @property
+    def removed(self):
+        """Whether the file has no name any more: what is written is gone when it is closed."""
+        return os.fstat(self._descriptor).st_nlink == 0
+
     def discard(self):
         """Give up what waits for a commit."""
         self._pending = bytearray()

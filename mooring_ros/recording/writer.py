@@ -43,7 +43,7 @@ class RecordingWriter:
     queue_limit_bytes: what may wait for the disk; more than that is lost, and counted.
 
     Attributes, to be read at any time: `path`, `file` (the MCAP file), `written` (messages that the operating system has),
-    `lost` (messages that are not in the file), `error` (str, what is wrong with the disk now, or None).
+    `lost` (messages that are not in the file), `error` (str, what is wrong with the disk now, or None), `behind` (s).
 
     The thread is not daemonic; it closes the file when `close` is called or the main thread ends.
     Raises RecordingError when the recording cannot be created.
@@ -78,6 +78,7 @@ class RecordingWriter:
         self._sink = Sink(descriptor)
         self._mcap = Writer(self._sink, chunk_size=chunk_size, compression=COMPRESSIONS[compression])
         self._flush_period = flush_period
+        self._clean = time.monotonic()      # what was given before is on the disk
         self._start(metadata, attachments(scene) if scene else ())
         self._thread = threading.Thread(target=self._work, name='recording')
         self._thread.start()
@@ -100,6 +101,11 @@ class RecordingWriter:
     def lost(self):
         """Messages that were given to `write` and are not in the recording."""
         return self._dropped + self._given_up
+
+    @property
+    def behind(self):
+        """s for which the oldest message that is not on the disk has waited; a little more than `flush_period` is usual."""
+        return time.monotonic() - self._clean if self._queue or self._unwritten else 0.0
 
     def declare(self, topic, type_name, qos=Qos()):
         """Make a topic known before its first message, with the quality of service it is offered with.
@@ -162,7 +168,7 @@ class RecordingWriter:
             self._record()
             self._finish()
         except Exception as error:          # a fault of ours must not pass for a recording that goes on
-            self.error = f'{self.file}: the recorder stopped: {error!r}'
+            self.error = str(error) if isinstance(error, RecordingError) else f'{self.file}: the recorder stopped: {error!r}'
             with self._lock:
                 self._closed = True
                 self._given_up += len(self._queue) + self._unwritten
@@ -177,11 +183,14 @@ class RecordingWriter:
             now = time.monotonic()
             if self.error and now < retry:
                 continue
+            if not self._queue and not self._unwritten:
+                self._clean = now
             if (not self.error or self._commit()) and self._take():
                 if now < due:
                     continue
                 self._mcap.flush()
-                self._commit()
+                if self._commit():
+                    self._clean = now
                 due = now + self._flush_period
             retry = time.monotonic() + RETRY
 
@@ -229,6 +238,8 @@ class RecordingWriter:
             except OSError as error:
                 self.error = f'{self.file}: {error.strerror or error}'
                 return False
+        if self._sink.removed:
+            raise RecordingError(f'{self.file}: the file was removed while it was written: this recording is lost')
         self.error = None
         self.written += self._unwritten
         self._unwritten = 0

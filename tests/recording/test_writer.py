@@ -1,8 +1,10 @@
 import errno
 import os
+import shutil
 import subprocess
 import sys
 import textwrap
+import threading
 import time
 
 import numpy as np
@@ -214,6 +216,32 @@ def test_closing_on_a_full_disk_keeps_what_was_written_and_says_so(tmp_path, mon
     assert [entry.log_time for entry in Recording(tmp_path / 'run').messages()] == [0]
     information = yaml.safe_load((tmp_path / 'run' / 'metadata.yaml').read_text())['rosbag2_bagfile_information']
     assert information['custom_data'] == {'mooring_ros.state': 'open'}
+
+
+def test_a_file_that_is_removed_while_it_is_written_is_an_error_that_names_it(tmp_path):
+    writer = RecordingWriter(tmp_path / 'run', {})
+    writer.write('/a', TEXT, bytes(100), 0)
+    wait_for(lambda: writer.written == 1)
+    shutil.rmtree(tmp_path / 'run')
+    writer.write('/a', TEXT, bytes(100), 1)
+    wait_for(lambda: writer.error)
+    assert 'run_0.mcap' in writer.error and 'removed' in writer.error
+    writer.write('/a', TEXT, bytes(100), 2)
+    assert writer.close() and writer.lost == 2 and not (tmp_path / 'run').exists()
+
+
+def test_how_far_it_is_behind_grows_while_the_disk_takes_its_time_and_is_nothing_when_idle(tmp_path, monkeypatch):
+    real, slow = os.pwrite, threading.Event()
+    monkeypatch.setattr(os, 'pwrite', lambda *args: (slow.wait(), real(*args))[1])
+    slow.set()
+    with RecordingWriter(tmp_path / 'run.mcap', {}, flush_period=0.01) as writer:
+        assert writer.behind == 0.0
+        slow.clear()
+        writer.write('/a', TEXT, bytes(100), 0)
+        wait_for(lambda: writer.behind > 0.3)
+        slow.set()
+        wait_for(lambda: writer.behind == 0.0)
+        assert writer.written == 1 and not writer.error
 
 
 def run_child(program, *arguments):
