@@ -13,7 +13,7 @@ from rclpy.qos import QoSProfile
 from std_srvs.srv import Trigger
 
 from mooring_ros.mooring import Mooring, MooringError
-from mooring_ros.motion import Adapter, ConventionCheck, Gate, Limits
+from mooring_ros.motion import Adapter, ConventionCheck, Gate, Limits, Velocity
 from mooring_ros.node import parameters
 from mooring_ros.node.accuracy import Companion, report
 from mooring_ros.node.diagnostics import Diagnostics
@@ -44,6 +44,10 @@ def _transition(callback):
             self.get_logger().fatal(f"{callback.__name__} failed:\n{traceback.format_exc()}")
             return ERROR
     return guarded
+
+
+def _velocity(values):
+    return Velocity(values["input_rate"], values["input_bandwidth"])
 
 
 class MooringNode(LifecycleNode):
@@ -86,7 +90,7 @@ class MooringNode(LifecycleNode):
         """Start a session: the first good sample settles. Subscriptions are made now, so being subscribed to says that it is active."""
         values = parameters.values(self)
         check = None if values["input"] == "pose" else ConventionCheck(self._adapter)
-        gate = Gate(self._adapter, Limits(), values["world_frame"], values["platform_frame"])
+        gate = Gate(self._adapter, Limits(), values["world_frame"], values["platform_frame"], _velocity(values))
         self._session = Session(self._mooring, gate, Output(), check)
         self._said, self._refused = self._session.state, 0
         self._pace = Pace()
@@ -142,6 +146,7 @@ class MooringNode(LifecycleNode):
         self._warm_up(Mooring(scene, **settings))
         self.get_logger().info(f"compiled in {time.monotonic() - begin:.1f} s")
         adapter = Adapter(values["twist_frame"], values["convention"], values["wrench_frame"], values["scale"], values["density_ratio"])
+        _velocity(values).tracker(adapter.time_factor)
         mooring = Mooring(scene, **settings)
         for warning in mooring.warnings:
             self.get_logger().warning(warning)

@@ -42,6 +42,9 @@ TABLE = (
     Entry("refine", 1.0, "The scene's segments of each line times this; not with segments.", fixed=True, low=_TINY, high=1e5),
     Entry("input", "odometry", "Topics of the platform's motion: platform/odom; platform/pose and platform/twist with equal stamps; or platform/pose alone.",
           fixed=True, choices=INPUTS),
+    Entry("input_rate", 0.0, "Nominal rate of the input (Hz by its own clock), for camera systems: bunched stamps are put right, and poses without a twist are filtered. "
+                             "0: not known, stamps are taken at their word.", fixed=True, high=1e5),
+    Entry("input_bandwidth", 0.0, "Bandwidth of that filter (Hz): some eight times the frequency of the waves. 0: a fifteenth of input_rate.", fixed=True, high=1e5),
     Entry("world_frame", "", "Frame that the motion is given in; others are refused. Empty: that of the first sample.", fixed=True),
     Entry("platform_frame", "", "Frame of the platform; others are refused. Empty: that of the first sample.", fixed=True),
     Entry("twist_frame", "child", "Axes of the given twist: the platform's (child), or the world's.", fixed=True, choices=TWIST_FRAMES),
@@ -63,6 +66,7 @@ TABLE = (
                                      "0: no limit."),
     Entry("limits.jump_rate", 2.0, "The same in angular velocity (rad/s, full scale). 0: no limit."),
     Entry("limits.gap", 60.0, "Longest time between two samples of one motion (s, full scale). 0: no limit."),
+    Entry("limits.lost_frames", 0, "How many inputs in a row that hold no pose (NaN, zero quaternion) are bridged by prediction. 0: none.", high=1000),
     Entry("ramp_time", 0.0, "Cosine ramp of the wrench after a start or a settle (s). 0: none.", high=1e6),
     Entry("visual_rate", 10.0, "Rate of ~/nodes and ~/markers in the time of the input (Hz). 0: never.", high=1000.0),
     Entry("accuracy.enabled", True, "Estimate the accuracy while running, in a process of its own that stands back for all others.", fixed=True),
