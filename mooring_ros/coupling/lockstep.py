@@ -45,7 +45,8 @@ class Coupling:
         self.step, self.timeout, self.patience = float(step), timeout, patience
         self.stiffness = self.wrench = self.round_trip = None
         self._make_scheme, self._scheme = SCHEMES[scheme], None
-        self._first, self._number = round(1e9 * start), -1
+        self._start = self._begun = round(1e9 * start)
+        self._number = -1
         self._coupled, self._missing, self._waiting_since, self._answered = False, 0, None, 0.0
         self._context = None
         if node is None:
@@ -75,7 +76,7 @@ class Coupling:
     @property
     def stamp(self):
         """Of the last sample, ns."""
-        return self._first + round(1e9 * self.step * max(self._number, 0))
+        return self._begun + round(1e9 * self.step * max(self._number, 0))
 
     def begin(self, pose):
         """Stand at pose (7,), at rest, until the mooring node is there and answers; returns its static wrench (6,).
@@ -86,14 +87,14 @@ class Coupling:
         self._link.wait_for_mooring(self.timeout)
         return self._greet(pose, self.timeout)
 
-    def exchange(self, pose, twist, free=np.zeros(6)):
-        """One step on: send pose (7,) and twist (6,), both in world axes, and take the answer.
+    def exchange(self, pose, twist, free=np.zeros(6), at=None):
+        """One step on, or at a simulated time (s) of one's own: send pose (7,) and twist (6,), both in world axes, and take the answer.
 
         Returns the wrench (6,) to hold until the next exchange: the scheme's, half a step ahead. Before the first answer it is `free`, and nothing waits.
         An answer that does not come in time counts as lost, and the scheme goes on from the last. Raises LinkError after three of them,
         or when none came within `timeout` of the first sample; ValueError for what is no motion; link.Stopped.
         """
-        self._next(pose, twist)
+        self._next(pose, twist, at)
         if not self._coupled:
             self._waiting_since = self._waiting_since or time.monotonic()
             first = self._link.first_answer()
@@ -118,7 +119,7 @@ class Coupling:
 
         The mooring node must have `on_reset: settle`; else it refuses the stamps, and this raises LinkError.
         """
-        self._number, self._coupled, self._waiting_since = -1, False, None
+        self._begun, self._number, self._coupled, self._waiting_since = self._start, -1, False, None
         try:
             return self._greet(pose, self.patience)
         except LinkError as error:
@@ -149,9 +150,14 @@ class Coupling:
             self._tell_time()
             yield self.stamp
 
-    def _next(self, pose, twist):
+    def _next(self, pose, twist, at):
         pose, twist = checked(pose, 7, "pose"), checked(twist, 6, "twist")
-        self._number += 1
+        if at is None:
+            self._number += 1
+        elif at > self.time or self._number < 0:
+            self._begun, self._number = round(1e9 * at), 0
+        else:
+            raise ValueError(f"at is {at!r} s, expected a time after that of the last sample, {self.time:.9f} s; after a reset call `reset`")
         self._tell_time()
         self._link.send(self.stamp, pose, twist)
 

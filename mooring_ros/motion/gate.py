@@ -107,14 +107,16 @@ class Gate:
 
     received, accepted: counts. rejected: Counter of REASONS. cause: words for the last refusal. frame, child_frame: as given by the
     parameters, else pinned to those of the first accepted sample ("" in a message means not said, and is let through). bridged: frames without a pose
-    over which the motion was carried on. velocity: see Velocity.
+    over which the motion was carried on. velocity: see Velocity. resets: what tells a simulation's reset from a reordered sample (node.resets), or None.
+    restarts: resets after which a new motion was begun.
     """
 
-    def __init__(self, adapter, limits=None, world_frame="", platform_frame="", velocity=Velocity()):
+    def __init__(self, adapter, limits=None, world_frame="", platform_frame="", velocity=Velocity(), resets=None):
         self.adapter = adapter
         self.limits = limits or Limits()
         self.frame, self.child_frame = world_frame, platform_frame
-        self.received = self.accepted = self.bridged = 0
+        self.received = self.accepted = self.bridged = self.restarts = 0
+        self.resets, self._after_reset = resets, False
         self.rejected = Counter()
         self.cause = ""
         self.last = None
@@ -139,6 +141,8 @@ class Gate:
         motion, given = self._convert(sample)
         if not math.isfinite(sum(motion.pose) + sum(motion.twist)):
             return self._refuse(NON_FINITE, "pose or twist is too large to convert")
+        if self.last is not None and self.resets is not None and self.resets.seen(motion.stamp, self.last.stamp):
+            self._follow_reset()
         problem = self._check_stamp(self.last, motion)
         if problem is None and self.frame_clock is not None:
             motion, problem = self._timed(motion)
@@ -167,8 +171,8 @@ class Gate:
 
     @property
     def relocated(self):
-        """Whether refused samples agree on a new place, or a new time, to which `relocate` can go."""
-        return self._agreeing >= RELOCATED_AFTER
+        """Whether refused samples agree on a new place, or a new time, to which `relocate` can go; after a reset, one of them is enough."""
+        return self._candidate is not None and (self._after_reset or self._agreeing >= RELOCATED_AFTER)
 
     def relocate(self):
         """Take the new place as the place; returns its last Motion, or None when there is none."""
@@ -179,6 +183,13 @@ class Gate:
         self._lost_run = 0
         motion, estimate, _ = self._moved(None, motion, given)
         return self._accept(motion, estimate)
+
+    def _follow_reset(self):
+        self._after_reset = True
+        if self.resets.settles:
+            self.restarts += 1
+            self.last = None
+            self._start_anew()
 
     # --- checks: each returns None, or (reason, words) ---
 
@@ -309,7 +320,9 @@ class Gate:
             self._origin = motion.time if self._origin is None else self._origin
         if self.frame_clock is not None:
             self.frame_clock.take(motion.time, motion.stamp)
-        self.last = motion
+        if self.resets is not None and (self.last is None or motion.stamp < self.last.stamp):
+            self.resets.begin(motion.stamp)
+        self.last, self._after_reset = motion, False
         self._candidate, self._agreeing = None, 0
         return motion
 

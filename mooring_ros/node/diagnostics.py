@@ -2,7 +2,7 @@
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
 from mooring_ros.motion.convention_check import MISSING, UNDECIDED
-from mooring_ros.motion.gate import REASONS
+from mooring_ros.motion.gate import REASONS, REPEATED
 from mooring_ros.node.session import FAILED, REFUSED, WAITING
 
 OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
@@ -39,7 +39,7 @@ class Diagnostics:
         gate, rejected = session.gate, sum(session.gate.rejected.values())
         values = {"received": gate.received, "accepted": gate.accepted, "rejected": rejected,
                   **{reason: gate.rejected[reason] for reason in REASONS}, "last rejection": gate.cause,
-                  "world frame": gate.frame, "platform frame": gate.child_frame}
+                  **self._steps_in(session), "world frame": gate.frame, "platform frame": gate.child_frame}
         fresh_rejection = self._grew("rejected", rejected, now)
         fresh_input = self._grew("accepted", gate.accepted, now)
         level, words = OK, f"{gate.accepted} samples"
@@ -54,9 +54,20 @@ class Diagnostics:
             level, words = (WARN if fresh_input else ERROR), f"refused: {gate.cause}"
             if gate.relocated:
                 words += "; call ~/settle to take the new place"
+        elif self._grew("lost steps", session.steps_in.lost, now) and level == OK:
+            level, words = WARN, f"{session.steps_in.lost} steps were lost on the way here, the nominal one is {1e-9 * session.steps_in.nominal:.6g} s"
+        elif gate.resets is not None and self._grew("resets", gate.restarts, now) and level == OK:
+            level, words = WARN, f"settled anew: {gate.resets.cause}"
         if session.state == REFUSED:
             level, words = ERROR, session.cause
         return self._status("input", level, words, values)
+
+    @staticmethod
+    def _steps_in(session):
+        """What a lockstep shows of steps that never came, or came twice."""
+        gate, steps = session.gate, session.steps_in
+        values = {"nominal step (s)": f"{1e-9 * steps.nominal:.6g}", "lost steps": steps.lost, "gaps": steps.gaps, "doubled steps": gate.rejected[REPEATED]}
+        return values if gate.resets is None else {**values, "resets": gate.resets.count}
 
     def _core(self, now, session, lifecycle, problem):
         values = {"state": lifecycle}

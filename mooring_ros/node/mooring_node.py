@@ -7,7 +7,8 @@ import traceback
 
 import numpy as np
 from diagnostic_msgs.msg import DiagnosticArray
-from rclpy.clock import Clock, ClockType
+from rclpy.clock import Clock, ClockType, JumpThreshold
+from rclpy.duration import Duration
 from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
 from rclpy.qos import QoSProfile
 from std_srvs.srv import Trigger
@@ -20,6 +21,7 @@ from mooring_ros.node.diagnostics import Diagnostics
 from mooring_ros.node.inputs import Inputs
 from mooring_ros.node.output import Output
 from mooring_ros.node.outputs import Outputs
+from mooring_ros.node.resets import Resets
 from mooring_ros.node.session import RUNNING, Session
 from mooring_ros.node.timing import Durations, FixedRate, Pace
 from mooring_ros.node.winch import Winch
@@ -31,6 +33,7 @@ from mooring_ros.scene import load_scene
 SUCCESS, FAILURE, ERROR = TransitionCallbackReturn.SUCCESS, TransitionCallbackReturn.FAILURE, TransitionCallbackReturn.ERROR
 
 DIAGNOSTICS_PERIOD = 1.0    # s
+_BACKWARD = JumpThreshold(min_forward=None, min_backward=Duration(nanoseconds=-1), on_clock_change=False)
 _HOLD_TIME = 1.0            # s, the ramp into the safe state where ramp_time does not say
 
 
@@ -60,11 +63,12 @@ class MooringNode(LifecycleNode):
         self._own_services = []
         self._timer = self._rate = None
         self._problem = ""
-        self._said, self._refused = None, 0
+        self._said, self._refused, self._restarts = None, 0, 0
         self._durations, self._pace = Durations(), Pace()
         parameters.declare(self, lambda: self._mooring is not None)
         self.add_post_set_parameters_callback(lambda _: self._apply_live_parameters())
         self._steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._resets, self._jumps = None, self.get_clock().create_jump_callback(_BACKWARD, post_callback=self._follow_clock)
         self._diagnostics = Diagnostics(self.get_fully_qualified_name())
         self._diagnostics_publisher = self.create_publisher(DiagnosticArray, "/diagnostics", QoSProfile(depth=10))
         self._diagnostics_timer = self.create_timer(DIAGNOSTICS_PERIOD, self._tick_diagnostics, clock=self._steady)
@@ -90,16 +94,17 @@ class MooringNode(LifecycleNode):
         """Start a session: the first good sample settles. Subscriptions are made now, so being subscribed to says that it is active."""
         values = parameters.values(self)
         check = None if values["input"] == "pose" else ConventionCheck(self._adapter)
-        gate = Gate(self._adapter, Limits(), values["world_frame"], values["platform_frame"], _velocity(values))
+        self._resets = Resets(values["on_reset"])
+        gate = Gate(self._adapter, Limits(), values["world_frame"], values["platform_frame"], _velocity(values), self._resets)
         self._session = Session(self._mooring, gate, Output(), check)
-        self._said, self._refused = self._session.state, 0
+        self._said, self._refused, self._restarts = self._session.state, 0, 0
         self._pace = Pace()
         if values["accuracy.enabled"]:
             self._companion = Companion(self._mooring, self._settings, values["accuracy.share"], values["accuracy.window"])
         self._apply_live_parameters()
         if values["timing.mode"] == "timer":
             self._rate = FixedRate(values["timing.rate"])
-            self._timer = self.create_timer(1.0 / values["timing.rate"], self._tick, clock=self._steady)
+            self._timer = self.create_timer(1.0 / values["timing.rate"], self._tick, clock=self.get_clock() if self._simulated else self._steady)
         self._inputs = Inputs(self, values["input"], values["twist_frame"], gate, self._take)
         self._winch = Winch(self, self._wind)
         # Nothing of this start is garbage, and a collection in the middle of an answer would delay it: from here on, once a second.
@@ -223,7 +228,7 @@ class MooringNode(LifecycleNode):
             if self._rate is None:
                 answers = session.take(sample, now)
             else:
-                answers = session.observe(sample, now, time.monotonic_ns())
+                answers = session.observe(sample, now, self._watch_now())
             if answers is not None:
                 self._answer(answers, arrived)
         last = session.gate.last
@@ -243,12 +248,30 @@ class MooringNode(LifecycleNode):
         self._outputs.record_input(topic, type_name, data, stamp, stamp)
         self._after()
 
+    @property
+    def _simulated(self):
+        return self.get_clock().ros_time_is_active
+
+    def _watch_now(self):
+        """ns of the clock that watches over silence and paces the timer: steady, or that of the simulation, which may stand still."""
+        return self.get_clock().now().nanoseconds if self._simulated else time.monotonic_ns()
+
+    def _follow_clock(self, jump):
+        """/clock has gone back."""
+        if self._session is None:
+            return
+        self._resets.clock_went_back()
+        self._session.clock.restart()
+        if self._rate is not None:
+            self._rate.restart()
+
     def _tick(self):
         """One cycle of the timer mode."""
         begin = time.perf_counter_ns()
-        if not self._rate.due(time.monotonic_ns()):
+        now = self._watch_now()
+        if not self._rate.due(now):
             return
-        answers = self._session.tick(time.monotonic_ns())
+        answers = self._session.tick(now)
         if answers is not None:
             self._answer(answers, begin)
         self._after()
@@ -261,6 +284,7 @@ class MooringNode(LifecycleNode):
         self._durations.add(took)
         self._pace.add(self._mooring.time, took, self._mooring.last_step)
         outputs.follow(stamp, answered)
+        outputs.follow_stiffness(stamp, self._session.settles)
 
     def _after(self):
         actions = self._session.actions()
@@ -280,6 +304,9 @@ class MooringNode(LifecycleNode):
             else:
                 self.get_logger().error(f"{session.state}: {session.cause}; ~/settle restarts")
             self.publish_diagnostics("active")
+        elif session.gate.restarts > self._restarts:
+            self._restarts = session.gate.restarts
+            self.get_logger().warning(f"settled anew: {self._resets.cause}")
         elif session.gate.received > session.gate.accepted + self._refused:
             self._refused = session.gate.received - session.gate.accepted
             self.get_logger().warning(f"input refused, {self._refused} so far, the last: {session.gate.cause}", throttle_duration_sec=5.0)
@@ -309,6 +336,7 @@ class MooringNode(LifecycleNode):
         output.ramp_time = values["ramp_time"]
         output.hold_time = values["ramp_time"] or _HOLD_TIME
         self._outputs.visual_rate = values["visual_rate"]
+        self._outputs.stiffness.rate = values["stiffness_rate"]
 
     def _tick_diagnostics(self):
         self.publish_diagnostics(self._state_machine.current_state[1])
@@ -340,4 +368,5 @@ class MooringNode(LifecycleNode):
     def destroy_node(self):
         """Close the recording even when nobody went through the lifecycle."""
         self._take_down()
+        self._jumps.unregister()
         super().destroy_node()

@@ -1,6 +1,6 @@
 """The publishers of a configured node. The wrench goes out first; everything else follows when it is on its way."""
 from geometry_msgs.msg import WrenchStamped
-from rclpy.qos import QoSProfile
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.qos_overriding_options import QoSOverridingOptions
 from sensor_msgs.msg import JointState, PointCloud2
 from std_msgs.msg import Float64MultiArray
@@ -8,10 +8,13 @@ from visualization_msgs.msg import MarkerArray
 
 from mooring_ros.node import messages
 from mooring_ros.node.markers import MARKER_ARRAY, Markers
+from mooring_ros.node.stiffness import Stiffness
 from mooring_ros.node.template import Template, placeholder
 from mooring_ros.recording import schedule
+from mooring_ros.recording.qos import Qos
 
 _DEPTH = 50
+_LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 class Outputs:
@@ -33,6 +36,8 @@ class Outputs:
         self._line_tensions = self._publisher(Float64MultiArray, messages.FLOAT_ARRAY, "~/line_tensions")
         self._nodes = self._publisher(PointCloud2, messages.POINT_CLOUD, "~/nodes")
         self._markers = self._publisher(MarkerArray, MARKER_ARRAY, "~/markers")
+        self.stiffness = Stiffness(mooring, adapter, 0.0)
+        self._stiffness = self._publisher(Float64MultiArray, messages.FLOAT_ARRAY, "~/stiffness", _LATCHED)
         slot = placeholder(schedule.LENGTH)
         self._schedule = Template(Float64MultiArray(data=messages.floats(slot)), [slot])
         self._steps_topic = node.get_fully_qualified_name() + schedule.TOPIC_SUFFIX
@@ -71,6 +76,13 @@ class Outputs:
             if self._wanted(self._markers):
                 self._send(self._markers, self._marker_messages.markers(stamp, self._mooring), stamp)
 
+    def follow_stiffness(self, stamp, settles):
+        """Publish the stiffness where it is due, after the answer at stamp (ns). settles: how many there have been."""
+        wanted = self._stiffness.get_subscription_count() > 0
+        data = self.stiffness.message(stamp, settles, wanted)
+        if data is not None:
+            self._send(self._stiffness, data, stamp)
+
     def record_input(self, topic, type_name, data, log_time, publish_time):
         """Record a message as it was received. Times: ns."""
         if self._recorder is not None:
@@ -88,16 +100,16 @@ class Outputs:
             self._node.destroy_publisher(publisher)
         self._publishers = {}
 
-    def _publisher(self, message_type, type_name, topic):
-        publisher = self._node.create_publisher(message_type, topic, QoSProfile(depth=_DEPTH),
+    def _publisher(self, message_type, type_name, topic, qos=QoSProfile(depth=_DEPTH)):
+        publisher = self._node.create_publisher(message_type, topic, qos,
                                                 qos_overriding_options=QoSOverridingOptions.with_default_policies())
         self._publishers[publisher] = publisher.topic_name, type_name
-        self._declare(publisher.topic_name, type_name)
+        self._declare(publisher.topic_name, type_name, Qos(depth=1, durability="transient_local") if qos is _LATCHED else Qos())
         return publisher
 
-    def _declare(self, topic, type_name):
+    def _declare(self, topic, type_name, qos=Qos()):
         if self._recorder is not None:
-            self._recorder.declare(topic, type_name)
+            self._recorder.declare(topic, type_name, qos)
 
     def _send(self, publisher, data, stamp):
         publisher.publish(data)

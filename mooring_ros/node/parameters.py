@@ -9,6 +9,7 @@ from rclpy.parameter import Parameter
 from mooring_ros.fidelity import EXPECTED, check
 from mooring_ros.mooring import SOLVERS
 from mooring_ros.motion.frames import CONVENTIONS, TWIST_FRAMES, WRENCH_FRAMES
+from mooring_ros.node.resets import POLICIES
 from mooring_ros.node.timing import MODES
 
 INPUTS = ("odometry", "pose_twist", "pose")
@@ -68,6 +69,10 @@ TABLE = (
     Entry("limits.gap", 60.0, "Longest time between two samples of one motion (s, full scale). 0: no limit."),
     Entry("limits.lost_frames", 0, "How many inputs in a row that hold no pose (NaN, zero quaternion) are bridged by prediction. 0: none.", high=1000),
     Entry("ramp_time", 0.0, "Cosine ramp of the wrench after a start or a settle (s). 0: none.", high=1e6),
+    Entry("on_reset", "refuse", "When simulated time goes back: wait for ~/settle (refuse), or settle anew at the next sample (settle).", fixed=True,
+          choices=POLICIES),
+    Entry("stiffness_rate", 1.0, "At most how often ~/stiffness is solved anew for those who listen (Hz, in the time of the input); it is published after each "
+                                 "settle. 0: never.", high=1000.0),
     Entry("visual_rate", 10.0, "Rate of ~/nodes and ~/markers in the time of the input (Hz). 0: never.", high=1000.0),
     Entry("accuracy.enabled", True, "Estimate the accuracy while running, in a process of its own that stands back for all others.", fixed=True),
     Entry("accuracy.share", 0.05, "Share of one processor that it may take over the long run.", fixed=True, low=1e-3, high=1.0),

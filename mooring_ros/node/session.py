@@ -6,6 +6,7 @@ import numpy as np
 from mooring_ros.mooring import MooringError
 from mooring_ros.motion import rotation
 from mooring_ros.motion.convention_check import WRONG
+from mooring_ros.node.steps_in import StepsIn
 from mooring_ros.node.timing import WALL_CLOCK, SourceClock
 from mooring_ros.recording import schedule
 
@@ -28,9 +29,11 @@ class Session:
     def __init__(self, mooring, gate, output, check=None):
         self.mooring, self.gate, self.output, self.check = mooring, gate, output, check
         self.state, self.cause = WAITING, ""
-        self.steps = self.unanswered = self.unwound = 0
+        self.steps = self.settles = self.unanswered = self.unwound = 0
         self.wrenches = None
         self.clock = SourceClock()
+        self.steps_in = StepsIn()
+        self._restarts = 0
         self._actions = []
         self._origin = None
         self._stepped = None        # stamp (ns) to which the core has been stepped
@@ -88,6 +91,7 @@ class Session:
             return False, "no valid input yet; the first one settles"
         if relocated:
             self.clock.restart()
+            self.steps_in.restart()
         elif self._stepped is not None:     # the timer mode may have carried the last motion on: time does not go back
             motion = motion._replace(stamp=max(motion.stamp, self._stepped))
         if self.check is not None and self.state == REFUSED:
@@ -155,12 +159,22 @@ class Session:
         motion = self.gate.admit(sample, now)
         if motion is None:
             return None
+        if self.gate.restarts != self._restarts:
+            self._begin_anew()
+        self.steps_in.add(motion.stamp)
         if self.check is not None and not self.check.finished:
             self._unchecked = motion, sample
         if self._stopped():
             self.unanswered += 1
             return None
         return motion
+
+    def _begin_anew(self):
+        """After a reset of the simulation: the sample that was admitted settles, but nothing leads out of a fault."""
+        self._restarts = self.gate.restarts
+        self.clock.restart()
+        if not self._stopped():
+            self.state = WAITING
 
     def _stopped(self):
         return self.state in (FAILED, REFUSED)
@@ -180,6 +194,7 @@ class Session:
             return self._fail(f"cannot settle: {error}")
         self._act(motion.stamp, schedule.encode_settle, time, pose)
         self.state, self.cause = RUNNING, ""
+        self.settles += 1
         computed = self._computed()
         self.output.start(motion.stamp * 1e-9, computed)
         self._set_wrenches(motion.stamp, computed)

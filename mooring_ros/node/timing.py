@@ -34,6 +34,10 @@ class FixedRate:
         self.ticks += 1
         return True
 
+    def restart(self):
+        """The clock has been set back: the deadlines begin anew."""
+        self._start = self._last = None
+
 
 class SourceClock:
     """What the source's clock shows, learned from stamps and their times of arrival.

@@ -96,3 +96,16 @@ def test_what_is_no_motion_is_not_sent(spring, pose, words):
 def test_wrong_arguments_name_what_was_expected(arguments, words):
     with pytest.raises(ValueError, match=words):
         Coupling(**arguments)
+
+
+def test_steps_of_ones_own_go_on_from_where_they_led(spring):
+    spring()
+    with Coupling(step=0.1) as mooring:
+        mooring.begin(HOME)
+        mooring.exchange(at(1.0), REST, at=5.0)
+        mooring.exchange(at(2.0), REST, at=5.02)
+        assert mooring.ahead(5.04)[0] == pytest.approx(3.0 * SPRING)
+        mooring.exchange(at(3.0), REST)
+        assert mooring.time == pytest.approx(5.12)
+        with pytest.raises(ValueError, match="expected a time after"):
+            mooring.exchange(at(3.0), REST, at=5.0)
