@@ -66,26 +66,27 @@ def _turns(q_from, q_to):
 class OnlineTwist:
     """Twist at the newest of the poses seen so far, from the last three of them: second order, nothing from the future, nothing against noise.
 
-    `propose` says what a pose would give, `take` goes there, as in tracking.PoseFilter.
+    The acceleration is not told: twice differenced, noise would be all of it. `propose` says what a pose would give, `take` goes there, as in
+    tracking.PoseFilter.
     """
 
     def __init__(self):
         self._older = []
 
     def propose(self, time, pose):
-        """The Estimate for a pose (7,) at a time (s) later than the last. The first pose is at rest, the second has no acceleration."""
+        """The Estimate for a pose (7,) at a time (s) later than the last. The first pose is at rest."""
         older = self._older
-        if not older:
-            return Estimate(time, tuple(pose), REST, REST)
-        near = self._difference(older[-1].pose, pose)
-        h1 = time - older[-1].time
-        if len(older) == 1:
-            return Estimate(time, tuple(pose), tuple(change / h1 for change in near), REST)
-        h2 = time - older[-2].time
-        far = self._difference(older[-2].pose, pose)
-        scale = 1.0 / (h1 * h2 * (h2 - h1))
-        return Estimate(time, tuple(pose), tuple(scale * (h2 * h2 * a - h1 * h1 * b) for a, b in zip(near, far)),
-                        tuple(2.0 * scale * (h2 * a - h1 * b) for a, b in zip(near, far)))
+        twist = REST
+        if older:
+            near = self._difference(older[-1].pose, pose)
+            h1 = time - older[-1].time
+            twist = tuple(change / h1 for change in near)
+        if len(older) > 1:
+            h2 = time - older[-2].time
+            far = self._difference(older[-2].pose, pose)
+            near_weight, far_weight = h2 / (h1 * (h2 - h1)), -h1 / (h2 * (h2 - h1))
+            twist = tuple(near_weight * a + far_weight * b for a, b in zip(near, far))
+        return Estimate(time, tuple(pose), twist, REST)
 
     def take(self, estimate):
         """Go on from an Estimate that was proposed."""

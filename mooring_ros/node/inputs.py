@@ -1,7 +1,7 @@
 """The subscriptions of an active node: bytes in, Samples out."""
 from geometry_msgs.msg import PoseStamped, TwistStamped
 from nav_msgs.msg import Odometry
-from rclpy.qos import QoSProfile
+from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.qos_overriding_options import QoSOverridingOptions
 
 from mooring_ros.motion import Pairs
@@ -10,7 +10,8 @@ from mooring_ros.node import decode
 
 ODOMETRY, POSE, TWIST = "nav_msgs/msg/Odometry", "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/TwistStamped"
 
-# Reliable, since in lockstep a lost sample is a simulator that waits for ever; `qos_overrides` parameters change it.
+# Reliable, since in lockstep a lost sample is a simulator that waits for ever; `qos_overrides` parameters change it. A reliable subscription hears nothing
+# of a best-effort publisher, which camera systems often are: `Inputs.review` sees that.
 DEPTH = 100
 
 
@@ -18,14 +19,15 @@ class Inputs:
     """Subscribes to what `input` names.
 
     gate: counts what never becomes a sample. take: called with (sample, topic, type name, bytes, stamp) for each message; the sample is None
-    for one that completes none. topics: name -> type name.
+    for one that completes none. topics: name -> type name. best_effort: names of the topics that are listened to without asking for what was lost.
     """
 
     def __init__(self, node, kind, twist_frame, gate, take):
         self._node, self._gate, self._take = node, gate, take
         self._pairs = Pairs(twist_frame) if kind == "pose_twist" else None
         self.topics = {}
-        self._subscriptions = []
+        self.best_effort = []
+        self._subscriptions, self._ways, self._heard = [], {}, set()
         if kind == "odometry":
             self._subscribe(Odometry, "platform/odom", ODOMETRY, self._odometry)
         else:
@@ -39,10 +41,33 @@ class Inputs:
             self._node.destroy_subscription(subscription)
         self._subscriptions = []
 
+    def review(self):
+        """Listen best-effort to a silent topic whose publishers are all so; call it now and then. Returns the names of topics that changed."""
+        changed = []
+        for name in self.topics.keys() - self._heard - set(self.best_effort):
+            publishers = self._node.get_publishers_info_by_topic(name)
+            if publishers and all(publisher.qos_profile.reliability == ReliabilityPolicy.BEST_EFFORT for publisher in publishers):
+                # Beside the reliable one, which is deaf from here on: it may have events under way, which it must not miss its end for.
+                self.best_effort.append(name)
+                self._listen(name, QoSProfile(depth=DEPTH, reliability=ReliabilityPolicy.BEST_EFFORT))
+                changed.append(name)
+        return changed
+
     def _subscribe(self, message_type, topic, type_name, decoded):
         name = self._node.resolve_topic_name(topic)
+        self._ways[name] = message_type, type_name, decoded
+        self.topics[name] = type_name
+        self._listen(topic, QoSProfile(depth=DEPTH), qos_overriding_options=QoSOverridingOptions.with_default_policies())
+
+    def _listen(self, topic, qos, **options):
+        name = self._node.resolve_topic_name(topic)
+        message_type, type_name, decoded = self._ways[name]
+        reliable = name not in self.best_effort
 
         def receive(data):
+            if reliable and name in self.best_effort:
+                return
+            self._heard.add(name)
             try:
                 sample, stamp = decoded(data)
             except ValueError as error:
@@ -50,10 +75,7 @@ class Inputs:
                 sample, stamp = None, None
             self._take(sample, name, type_name, data, stamp)
 
-        self._subscriptions.append(self._node.create_subscription(
-            message_type, topic, receive, QoSProfile(depth=DEPTH), raw=True,
-            qos_overriding_options=QoSOverridingOptions.with_default_policies()))
-        self.topics[name] = type_name
+        self._subscriptions.append(self._node.create_subscription(message_type, topic, receive, qos, raw=True, **options))
 
     def _odometry(self, data):
         sample = decode.odometry(data)

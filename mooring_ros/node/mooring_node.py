@@ -342,6 +342,8 @@ class MooringNode(LifecycleNode):
         self.publish_diagnostics(self._state_machine.current_state[1])
         if self._session is not None:
             gc.collect()
+            for name in self._inputs.review():
+                self.get_logger().warning(f"all publishers of {name} are best-effort: listens to it likewise, what is lost on the way is not sent again")
 
     def publish_diagnostics(self, lifecycle):
         """Publish the state now. lifecycle: label of the node's state."""

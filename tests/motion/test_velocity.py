@@ -88,10 +88,3 @@ def test_online_twist_starts_from_rest_and_then_from_one_difference():
     online = OnlineTwist()
     assert follow(online, 0.0, (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)).twist == (0.0,) * 6
     assert follow(online, 0.5, (1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)).twist[0] == pytest.approx(2.0)
-
-
-def test_online_twist_knows_the_acceleration_of_three_uneven_poses():
-    online = OnlineTwist()
-    for t in (0.0, 0.3, 0.4):
-        estimate = follow(online, t, (0.5 * 3.0 * t * t, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0))
-    assert (estimate.twist[0], estimate.acceleration[0]) == pytest.approx((1.2, 3.0))
