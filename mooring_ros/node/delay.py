@@ -73,7 +73,7 @@ class Frequency:
 
     def __init__(self):
         self._last = self._first = None
-        self._passed = self._turned = 0.0
+        self._passed = 0.0
         self._mean = [0.0, 0.0]
         self._square = self._speed = 0.0
 
@@ -86,7 +86,6 @@ class Frequency:
         dt, self._last = moment - self._last, moment
         self._passed += dt
         omega = self._now()
-        self._turned += dt * omega
         share = dt / min(self._passed, self._MEMORY / omega if omega else math.inf)
         off = [x - first for x, first in zip(pose, self._first)]
         self._mean = [mean + share * (x - mean) for mean, x in zip(self._mean, off)]
@@ -100,4 +99,6 @@ class Frequency:
     @property
     def value(self):
         """rad/s, or None before about one period has passed."""
-        return self._now() if self._turned > 2.0 * math.pi and self._now() else None
+        # of a motion that only goes on in one direction, this is the root of 12
+        now = self._now()
+        return now if now * self._passed > 2.0 * math.pi else None
