@@ -182,7 +182,7 @@ class Fleet:
             self._run_alone(m, times, poses[:, m], twists[:, m], wrench[:, m], tension[:, self.first_line[m] : self.first_line[m + 1]], failed)
         for start in range(0, len(times), SAMPLES):
             rows = slice(start, start + SAMPLES)
-            ways = [np.ascontiguousarray(values[rows].transpose(1, 0, 2))[:, :, None] for values in (poses, twists)]
+            ways = [np.ascontiguousarray(values[rows].transpose(1, 0, 2))[:, :, None, None] for values in (poses, twists)]
             self._advance(times[rows, None], *ways, wrench[rows], tension[rows])
             for m in np.flatnonzero(self._status[:, 0] != DONE).tolist():
                 if m not in failed and self._status[m, 0] != ALONE:
@@ -257,6 +257,8 @@ def _built(members, options):
     firsts = {}  # by path, or by identity of the Scene
     for m, member in enumerate(members):
         if isinstance(member, Mooring):
+            if member.platforms is not None:
+                raise ValueError(f"member {m} has platforms {', '.join(member.platforms)}; fleets are built for moorings with one platform each")
             if options:
                 raise ValueError(f"member {m} is a Mooring already; {', '.join(options)} can be given for scenes only")
             yield member

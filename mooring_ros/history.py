@@ -10,7 +10,7 @@ class History:
     """Readings of many samples, one row each; k samples, world frame."""
 
     time: np.ndarray  # (k,) s
-    wrench: np.ndarray  # (k, 6) N, N m
+    wrench: np.ndarray  # (k, 6) N, N m, or (k, platforms, 6)
     anchor_tension: np.ndarray  # (k, lines) N
     fairlead_tension: np.ndarray  # (k, lines) N
     anchor_end_force: np.ndarray  # (k, lines, 3) N

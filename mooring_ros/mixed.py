@@ -39,6 +39,8 @@ class MixedMooring(Mooring):
     names them otherwise. What cannot be asked of one fidelity (`error_estimate`) is the worst of those that know it.
     """
 
+    platforms = None  # one, with all that is coupled
+
     def __init__(self, scene, fidelity, *positional, **settings):
         self.scene = scene if isinstance(scene, Scene) else load_scene(scene)
         self.line_names = [line.name for line in self.scene.lines]
@@ -173,6 +175,10 @@ class MixedMooring(Mooring):
     @property
     def pose(self):
         return self._fullest.pose
+
+    @property
+    def pose_in_file(self):
+        return self._fullest.pose_in_file
 
     @property
     def twist(self):

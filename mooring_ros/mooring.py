@@ -31,6 +31,7 @@ from .core.waves import waken
 from .errors import MooringError
 from .fidelity import EXPECTED, FIDELITIES, is_by_line
 from .history import History
+from .platforms import Platforms
 from .scene import COUPLED, Scene, load_scene
 
 SOLVERS = ("auto", "explicit", "implicit")
@@ -68,29 +69,33 @@ class Mooring:
     or the text "line1=dynamic,default=linear" (mixed.py). solver: "auto", "explicit" or "implicit" (docs/solvers.md). dt: largest step of the solver
     (s), None for the largest that is stable, or of the implicit solver one that follows the motion; of the explicit one a dt beyond is not taken.
     spectral_radius: of the implicit solver, 0..1: the share of waves too quick for the step that a step leaves. segments: segments of every line, None for the file's; refine: the file's
-    segments of each line times this, rounded, where lines of unlike lengths share a mesh.
+    segments of each line times this, rounded, where lines of unlike lengths share a mesh. platforms: names of the coupled bodies that move by themselves,
+    each a platform with the body's pose (docs/platforms.md); None for one platform, which carries all that is coupled.
 
     pose is (7,): x, y, z (m) and a unit quaternion x, y, z, w; twist is (6,): velocity (m/s) of the reference point and angular velocity
-    (rad/s); all in the world frame, z up from the still water level. A line's fairlead is its coupled end (end B if both or none are).
+    (rad/s); all in the world frame, z up from the still water level. With `platforms`, pose, twist and wrench are (platforms, 7) and (platforms, 6),
+    whatever is said of (7,) and (6,) here. A line's fairlead is its coupled end (end B if both or none are).
     Raises SceneError for a bad scene, ValueError for bad arguments; MooringError when a computation cannot be completed.
     """
 
-    def __new__(cls, scene=None, fidelity="dynamic", solver="auto", dt=None, segments=None, refine=1.0, *_, **__):
+    def __new__(cls, scene=None, fidelity="dynamic", solver="auto", dt=None, segments=None, refine=1.0, *_, platforms=None, **__):
         if cls is not Mooring or scene is None:
             return object.__new__(cls)
         if is_by_line(fidelity):
+            if platforms is not None:
+                raise ValueError("platforms: lines with fidelities of their own are not built for several platforms; expected one fidelity for all lines")
             from .mixed import MixedMooring
 
             return object.__new__(MixedMooring)
         from .blocks import BlockMooring, is_large
 
         scene = scene if isinstance(scene, Scene) else load_scene(Path(scene))
-        large = fidelity == "dynamic" and solver != "implicit" and is_large(scene, segments, refine)
+        large = fidelity == "dynamic" and solver != "implicit" and platforms is None and is_large(scene, segments, refine)
         made = object.__new__(BlockMooring if large else cls)
         made.scene = scene
         return made
 
-    def __init__(self, scene, fidelity="dynamic", solver="auto", dt=None, segments=None, refine=1.0, spectral_radius=implicit.SPECTRAL_RADIUS):
+    def __init__(self, scene, fidelity="dynamic", solver="auto", dt=None, segments=None, refine=1.0, spectral_radius=implicit.SPECTRAL_RADIUS, platforms=None):
         if fidelity not in FIDELITIES:
             raise ValueError(f"fidelity {fidelity!r} is not built; expected {EXPECTED}")
         if solver not in SOLVERS:
@@ -115,7 +120,9 @@ class Mooring:
         self._wound = _refined(self.scene, refine)  # and with the lengths that winches have given its lines
         self._segments = None if segments is None else int(segments)
         self._given_dt = dt
-        self._layout = layout = Layout(self.scene)
+        self._platforms = Platforms(platforms, self.scene)
+        self.platforms = self._platforms.names
+        self._layout = layout = Layout(self.scene, self.platforms or ())
         self._model, self._ends = build(self._wound, self._segments, layout)
         self._prepare()
         self.choice = f"{solver}, as asked for"
@@ -135,7 +142,8 @@ class Mooring:
             if idle:
                 self.warnings += (f"{fidelity} moorings know no {', '.join(idle)}: still water, lines as they stand, ropes as they settle",)
         self._report = np.zeros(4)
-        self._time, self._pose, self._twist = np.zeros(1), np.zeros((1, 7)), np.zeros((1, 6))
+        count = self._platforms.count
+        self._time, self._pose, self._twist = np.zeros(1), np.zeros((1, count, 7)), np.zeros((1, count, 6))
         self._settled = False
         self._linear = None
         self.line_names = [line.name for line in self.scene.lines]
@@ -161,7 +169,7 @@ class Mooring:
 
     def settle(self, pose, time=0.0):
         """Static equilibrium with the platform at rest at `pose` (7,), from a cold start; the clock stands at `time` (s) after it."""
-        pose = checked_poses(shaped(pose, (7,), "pose", "x, y, z, qx, qy, qz, qw"))
+        pose = self._platforms.pose(pose)
         time = float(shaped(time, (), "time", "seconds"))
         if not np.isfinite(time):
             raise ValueError(f"time is {time!r}; expected a finite number of seconds")
@@ -187,8 +195,7 @@ class Mooring:
         the mooring as it was.
         """
         self._time[0] = self._checked_time(t)
-        self._pose[0] = checked_poses(shaped(pose, (7,), "pose", "x, y, z, qx, qy, qz, qw"))
-        self._twist[0] = checked_twists(shaped(twist, (6,), "twist", "vx, vy, vz, wx, wy, wz"))
+        self._pose[0], self._twist[0] = self._platforms.pose(pose), self._platforms.twist(twist)
         self._need_settled()
         self._run(self._time, self._pose, self._twist, self._readings)
 
@@ -198,11 +205,9 @@ class Mooring:
         When a step cannot be completed, MooringError is raised with the attribute `history` holding the samples done before it.
         """
         times = numbers(times, "times").reshape(-1)
-        poses, twists = numbers(poses, "poses"), numbers(twists, "twists")
-        if poses.shape != (times.size, 7) or twists.shape != (times.size, 6):
-            raise ValueError(f"times {times.shape}, poses {poses.shape}, twists {twists.shape}; expected (k,), (k, 7), (k, 6)")
+        poses, twists = self._platforms.motion(times, poses, twists)
         if times.size == 0:
-            return History.of(times, new_readings(self._model, 0))
+            return self._history(times, new_readings(self._model, 0))
         self._need_settled()
         self._checked_time(times[0])
         if not (np.isfinite(times).all() and (np.diff(times) > 0.0).all()):
@@ -213,13 +218,13 @@ class Mooring:
             done = self._run(times, poses, twists, readings)
         except MooringError as error:
             done = error.samples
-            error.history = History.of(times[:done], _rows(readings, slice(0, done)))
+            error.history = self._history(times[:done], _rows(readings, slice(0, done)))
             raise
         finally:
             if done:
                 for mine, row in zip(self._readings, _rows(readings, slice(done - 1, done))):
                     mine[:] = row
-        return History.of(times, readings)
+        return self._history(times, readings)
 
     def release(self, line_name):
         """Let go of the fairlead end of a line; it falls from where it is. Raises ValueError for an unknown or loose line."""
@@ -262,8 +267,8 @@ class Mooring:
     def _read_again(self):
         """Bring the readings up to date after something other than the motion has changed."""
         if self.fidelity == "linear" and self._settled:
-            self._linear = LinearRange((self._linearised(self.pose),))
-            self._linear.show(self._state, self.pose, self.twist, 0, self._readings)
+            self._linear = LinearRange((self._linearised(self._state.pose.copy()),))
+            self._linear.show(self._state, self._state.pose, self._state.twist, 0, self._readings)
         elif self._settled:
             settings = self._state.settings
             accelerations = [array.copy() for array in (self._state.acceleration, self._state.parts_acceleration)]
@@ -307,18 +312,23 @@ class Mooring:
 
     @property
     def pose(self):
-        """(7,) of the platform at `time`."""
-        return self._state.pose.copy()
+        """(7,) of the platform at `time`, or (platforms, 7)."""
+        return self._platforms.outside(self._state.pose).copy()
+
+    @property
+    def pose_in_file(self):
+        """(7,) or (platforms, 7): where the file puts the platforms, zero when they have no names."""
+        return self._platforms.pose_in_file.copy()
 
     @property
     def twist(self):
-        """(6,) of the platform at `time`."""
-        return self._state.twist.copy()
+        """(6,) of the platform at `time`, or (platforms, 6)."""
+        return self._platforms.outside(self._state.twist).copy()
 
     @property
     def wrench(self):
-        """(6,) N and N m of the mooring on the platform, about its reference point, world frame."""
-        return self._shown.wrench[0].copy()
+        """(6,) or (platforms, 6) N and N m of the mooring on the platform, about its reference point, world frame."""
+        return self._platforms.outside(self._shown.wrench[0]).copy()
 
     @property
     def fairlead_tension(self):
@@ -395,10 +405,16 @@ class Mooring:
         if part is not None:
             return self._state.parts[part, :7].copy()
         own = np.array([*body.position, *body.orientation], dtype=float)
-        return own if body.kind != COUPLED else np.concatenate(composed(self.pose, own))
+        if body.kind != COUPLED:
+            return own
+        pose = self._state.pose[self._layout.platforms[body.id]]
+        return np.concatenate(composed(pose, own)) if self.platforms is None else pose.copy()
 
     def stiffness(self):
-        """(6, 6) -d wrench / d pose of the static mooring at the present pose, N/m, N, N m; rotations about the world axes."""
+        """(6, 6) -d wrench / d pose of the static mooring at the present pose, N/m, N, N m; rotations about the world axes.
+
+        With `platforms` (6 platforms, 6 platforms): row 6 i + a is wrench component a on platform i, column 6 j + b the move b of platform j.
+        """
         self._need_settled()
         state, _ = self._static_state(self._state.pose.copy())
         return self._statics.platform_stiffness(state, self._scratch)
@@ -411,7 +427,7 @@ class Mooring:
         the wrench's force and moment over the sum of the fairlead tensions (times the farthest coupled point's distance).
         """
         self._need_settled()
-        return self._linear.error(self.pose) if self.fidelity == "linear" else None
+        return self._linear.error(self._state.pose) if self.fidelity == "linear" else None
 
     @property
     def energy(self):
@@ -540,7 +556,7 @@ class Mooring:
         evaluate_once(free, state, self._scratch, 0.0, 0.0, True)
         for time in np.arange(1, PIECES + 1) * (duration / PIECES):
             status, _ = explicit.run(
-                free, state, self._scratch, self._table, np.array([time]), state.pose[None].copy(), np.zeros((1, 6)), report, readings
+                free, state, self._scratch, self._table, np.array([time]), state.pose[None].copy(), np.zeros((1, *state.twist.shape)), report, readings
             )
             effort += report[0] * model.size
             energy = (model.mass * state.velocity**2).sum() + (model.rigid.mass[:, None] * state.parts[:, 7:10] ** 2).sum()
@@ -554,6 +570,9 @@ class Mooring:
             state.grip[3] = NO_CONTACT
         farthest = np.abs(state.position - start).max()
         return effort, status != explicit.DONE or farthest < AT_REST * max(self._statics.lengths)
+
+    def _history(self, times, readings):
+        return History.of(times, readings._replace(wrench=self._platforms.outside(readings.wrench)))
 
     def _run(self, times, poses, twists, readings):
         if self.fidelity == "quasi_static":

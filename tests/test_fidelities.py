@@ -105,7 +105,7 @@ def test_quasi_static_follows_in_parts_of_the_move_where_newton_does_not_find_th
     solve, tried = mooring._statics.solve, []
 
     def not_at_once(state, scratch, quick=False):
-        tried.append(float(state.pose[0]))
+        tried.append(float(state.pose[0, 0]))
         result = solve(state, scratch, quick=quick)
         return replace(result, residual=np.inf, converged=False) if len(tried) == 1 else result
 

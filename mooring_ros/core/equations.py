@@ -18,14 +18,14 @@ SPIN_TRACE = 1e-12  # of a part's largest stiffness, or of the line's weight at 
 
 
 class Equations:
-    """Stiffness between the unknowns of a Freedom, with or without the platform's, assembled from blocks.
+    """Stiffness between the unknowns of a Freedom, with or without the platforms', assembled from blocks.
 
     pattern: BendingPattern. weight: N, for the trace of stiffness against spins that nothing resists, as of a rod about its axis.
     """
 
     def __init__(self, model, freedom, pattern, weight, platform=False):
         self._freedom, self._platform, self._weight = freedom, platform, weight
-        n, count = model.mass.size, freedom.count // 3 + 2 * platform
+        n, count = model.mass.size, freedom.count // 3 + 2 * platform * model.reach.size
         following = freedom.with_platform if platform else freedom.following
         turned, nodes = freedom.turned_threes(platform)
         self._turned_nodes, parts = nodes, (turned - freedom.own // 3) // 2

@@ -9,7 +9,7 @@ from .forces import evaluate, evaluate_in_place
 from .ground import commit_grip
 from .guard import EVEN, FASTEST, IMPLAUSIBLE, TORN, UNEVEN, copy_row, hardest_acceleration, keep_tension, overstretched, recall, runaway, save, speed_of_ends, tension_jumped
 from .packed import entry
-from .platform import start_motion
+from .platforms import average_acceleration, end_interval, recall_acceleration, start_motions
 from .points import carry_ends, place_coupled_points, place_staggered_coupled_points, speed_coupled_points
 from .readings import show
 from .rigid import copy_parts, euler_parts, mix_parts
@@ -209,27 +209,27 @@ def take_steps(model, state, scratch, scheme, h, steps, start, ds):
                 last_stage(model, state, scratch, h / (evaluations - 1), evaluations)
                 place_coupled_points(model, state, scratch.motion, end)
             if k == evaluations - 1:
-                state.settings[6] = state.clock[0] + end * scratch.motion[7, 0] + 0.5 * h  # the middle of the next step, which begins with this evaluation
+                state.settings[6] = state.clock[0] + end * scratch.motion[0, 7, 0] + 0.5 * h  # the middle of the next step, which begins with this evaluation
             evaluate(model, state, scratch, state.settings[0], state.settings[1], state.settings[2] != 0.0, k == evaluations - 1)
         worst = max(worst, tension_jumped(model, state, scratch, AXIAL_JUMP if scheme == AXIAL else JUMP))
         if state.grip.shape[1] > 0:
             remember_grip(model, state, scratch)
         if model.failures.point.size > 0:
-            let_go(model, state, scratch, state.clock[0] + end * scratch.motion[7, 0])
+            let_go(model, state, scratch, state.clock[0] + end * scratch.motion[0, 7, 0])
     return worst
 
 
 @paragraph
-def advance(model, state, scratch, table, time, pose, twist, report):
-    """Advance `state` to `time` (s), where the platform has `pose` (7,) and `twist` (6,). Returns a status code.
+def advance(model, state, scratch, table, time, poses, twists, report):
+    """Advance `state` to `time` (s), where the platforms have poses (M, 7) and twists (M, 6). Returns a status code.
 
     `table`: from `schemes.step_table`. The interval is taken in chunks. One whose tensions come out uneven is taken again from its start
     with half the step, down to one in `MOST_REFINED`, or in `FINEST` where they collapse, and the finer step is kept for a while. One that
     runs away even in the finest steps is refused: the state is as it was. `report` (4,) gets evaluations, steps, chunks taken again and the shortest step (s).
     """
     duration = time - state.clock[0]
-    start_motion(state.pose, state.twist, pose, twist, duration, scratch.motion)
-    ends = speed_of_ends(model, state.twist, twist, scratch.motion)
+    start_motions(state, poses, twists, duration, scratch.motion)
+    ends = speed_of_ends(model, state.twist, twists, scratch.motion)
     if not ends <= FASTEST:
         return TOO_FAST
     fastest = IMPLAUSIBLE * (model.natural_speed + ends)
@@ -241,11 +241,7 @@ def advance(model, state, scratch, table, time, pose, twist, report):
     previous = (settings[0], settings[1], settings[2], settings[3], settings[4], settings[6], settings[8])
     if not duration <= MOST_STEPS * largest:
         return TOO_LONG
-    a = state.acceleration_of_platform
-    mean_before = (a[0], a[1], a[2], a[3], a[4], a[5])
-    share = min(duration / smallest, 1.0)  # samples closer than a step share one mean: their differences are noise
-    for i in range(6):
-        a[i] += share * ((twist[i] - state.twist[i]) / duration - a[i])
+    average_acceleration(state, scratch, twists, duration, min(duration / smallest, 1.0))  # samples closer than a step share one mean: their differences are noise
     chunks = int(np.ceil(duration / min(CHUNK * largest, model.sea.refresh)))
     span = duration / chunks
     evaluations_taken, steps_taken, retries, shortest, looked_ahead = 0.0, 0, 0, duration, False
@@ -281,8 +277,7 @@ def advance(model, state, scratch, table, time, pose, twist, report):
         torn = overstretched(model, state, settings[5])
         if wild or torn:
             recall(model, state, scratch, 0)
-            for i in range(6):
-                state.acceleration_of_platform[i] = mean_before[i]
+            recall_acceleration(state, scratch)
             settings[0], settings[1], settings[2], settings[3], settings[4], settings[6], settings[8] = previous
             if settings[2] == 0.0:
                 all_wet(model, state)
@@ -297,11 +292,7 @@ def advance(model, state, scratch, table, time, pose, twist, report):
             settings[3], settings[4] = refined, now + REFINED_STEPS * largest
         elif refined > 1.0 and now >= settings[4]:
             settings[3], settings[4] = 0.5 * refined, now + REFINED_STEPS * largest
-    for i in range(7):
-        state.pose[i] = pose[i]
-    for i in range(6):
-        state.twist[i] = twist[i]
-    state.clock[0] = time
+    end_interval(state, time, poses, twists)
     report[0], report[1], report[2], report[3] = evaluations_taken, steps_taken, retries, shortest
     return DONE
 
@@ -309,7 +300,7 @@ def advance(model, state, scratch, table, time, pose, twist, report):
 @entry
 @kernel
 def run(model, state, scratch, table, times, poses, twists, report, readings):
-    """Advance through samples: times (k,), poses (k, 7), twists (k, 6); readings get a row for each. Returns (status, samples done)."""
+    """Advance through samples: times (k,), poses (k, M, 7), twists (k, M, 6); readings get a row for each. Returns (status, samples done)."""
     for sample in range(times.size):
         status = advance(model, state, scratch, table, times[sample], poses[sample], twists[sample], report)
         if status != DONE:

@@ -28,7 +28,7 @@ class Member(NamedTuple):
     readings: Readings  # of one row
 
 
-_FLOATS = tuple(types.Array(types.float64, ndim, "C") for ndim in (2, 1, 2, 2, 1))  # table, times, poses, twists, report
+_FLOATS = tuple(types.Array(types.float64, ndim, "C") for ndim in (2, 1, 3, 3, 1))  # table, times, poses, twists, report
 _RUN = types.UniTuple(types.int64, 2), (Fields(Model), Fields(State), Fields(Scratch), *_FLOATS, Fields(Readings))  # result and arguments of explicit.run
 _member_at, _scratch_at, _run_at = tuple_at(Member), tuple_at(Scratch), caller(*_RUN)
 
@@ -51,7 +51,7 @@ def read_clocks(members, clocks):
 @stage
 def _show_member(shown, m, row, first_line, wrench, tension):
     for k in range(6):
-        wrench[row, m, k] = shown.wrench[0, k]
+        wrench[row, m, k] = shown.wrench[0, 0, k]
     for line in range(first_line[m], first_line[m + 1]):
         for side in range(2):
             tension[row, line, side] = shown.tension[0, line - first_line[m], side]
@@ -68,7 +68,7 @@ def collect(members, first_line, wrench, tension):
 @entry
 @kernel
 def advance_many(address, members, kinds, scratches, first, last, times, poses, twists, first_line, status, wrench, tension):
-    """Advance members first to last - 1 through samples: times (k, 1), poses (members, k, 1, 7), twists (members, k, 1, 6).
+    """Advance members first to last - 1 through samples: times (k, 1), poses (members, k, 1, 1, 7), twists (members, k, 1, 1, 6): one platform each.
 
     members (members,): addresses of Members; kinds (members,): which of `scratches`, addresses of Scratches, serves each. status (members, 2):
     members whose first one is not DONE are left alone; it gets a status code, and when that is another one the samples done before. wrench (k, members, 6) N, N m and

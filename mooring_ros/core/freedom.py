@@ -1,7 +1,7 @@
 """What may move in the statics: unknowns, and how the nodes follow them.
 
 Unknowns come in threes: the place of every node of its own (inside lines, loose ends, free points with the ends that they hold), then place
-and turn (world axes) of every rigid part (a pinned part only turns); the platform's place and turn are the last two. A node follows a place
+and turn (world axes) of every rigid part (a pinned part only turns); those of the platforms are the last. A node follows a place
 as it is and a turn by its arm; a list of (node, three, arm or none) says all of it.
 """
 
@@ -34,9 +34,9 @@ class Following(NamedTuple):
 class Freedom:
     """Unknowns of one model with its ends held as `state.end_point` says.
 
-    count: unknowns, the platform's not included; own: those of nodes of their own. kept (count // 3,): whether a three moves at all.
+    count: unknowns, the platforms' not included; own: those of nodes of their own. kept (count // 3,): whether a three moves at all.
     slender: parts that nothing could tell to spin, all that rides on them in one line; slender_axis (k, 3): along it, the part's axes.
-    following: a Following without the platform; with_platform: and with it, its last two threes.
+    following: a Following without the platforms; with_platform: and with them, two threes each at the end.
     """
 
     def __init__(self, model, state):
@@ -59,11 +59,12 @@ class Freedom:
         unknown[node[free]] = unknown[model.point_node[point[free]]]
         rides = kind == POINT_RIDING
         self._rider, self._rider_part = node[rides], model.rigid.part[point[rides]]
-        self._coupled = node[kind == POINT_COUPLED]
+        self._coupled, on = node[kind == POINT_COUPLED], model.point_platform[point[kind == POINT_COUPLED]]
         pinned = model.rigid.pin >= 0
         self._pinned = np.flatnonzero(pinned)
         on_platform = pinned & (model.point_kind[model.rigid.pin] == POINT_COUPLED)
-        self._hung = np.flatnonzero(on_platform[self._rider_part])  # riders on parts that hang on the platform
+        self._hung = np.flatnonzero(on_platform[self._rider_part])  # riders on parts that hang on a platform
+        self._carrier = np.concatenate([on, model.point_platform[model.rigid.pin[self._rider_part[self._hung]]]])
         self.kept = np.ones(self.count // 3, dtype=bool)
         self.kept[own + 2 * self._pinned] = False
         self._list(unknown, own, pinned)
@@ -98,19 +99,20 @@ class Freedom:
         self.following = _following(rows)
         carried = np.concatenate([self._coupled, self._rider[self._hung]])
         arms = self._rider.size + np.arange(carried.size)
-        platform = self.count // 3
+        platform = self.count // 3 + 2 * self._carrier
         self.with_platform = _following(rows + [(carried, platform, NO_ARM), (carried, platform + 1, arms)])
         self._by_arm = np.flatnonzero(self.following.arm != NO_ARM)
         self._columns = _in_threes(self.following.three)
         self._rows = _in_threes(self.following.node)
 
     def arms(self, state, platform=False):
-        """(arms, 3) m, of the riders and, with `platform`, of what it carries."""
+        """(arms, 3) m, of the riders and, with `platform`, of what platforms carry."""
         riders = state.position.T[self._rider] - state.parts[self._rider_part, :3]
         if not platform:
             return riders
         pins = state.parts[self._rider_part[self._hung], :3]
-        return np.concatenate([riders, state.position.T[self._coupled] - state.pose[:3], pins - state.pose[:3]])
+        carried = np.concatenate([state.position.T[self._coupled], pins])
+        return np.concatenate([riders, carried - state.pose[self._carrier, :3]])
 
     def turned_threes(self, platform=False):
         """What the arms turn with: (three, node) of each, as `arms` has them."""
@@ -118,13 +120,13 @@ class Freedom:
         if not platform:
             return three, node
         carried = np.concatenate([self._coupled, self._rider[self._hung]])
-        return np.concatenate([three, np.full(carried.size, self.count // 3 + 1)]), np.concatenate([node, carried])
+        return np.concatenate([three, self.count // 3 + 2 * self._carrier + 1]), np.concatenate([node, carried])
 
     def turn_of(self, clamps, c):
         """The three that turns clamp c, or None for one that the ground holds."""
         if clamps.part[c] >= 0:
             return self.own // 3 + 2 * clamps.part[c] + 1
-        return self.count // 3 + 1 if clamps.riding[c] else None
+        return self.count // 3 + 2 * clamps.platform[c] + 1 if clamps.platform[c] >= 0 else None
 
     def forces(self, state, force):
         """(count,) forces on the unknowns from those on the nodes, (3, n), and from the clamps; none on what does not move."""

@@ -11,20 +11,39 @@ FASTEST = 1e5  # m/s that a platform may be said to move at
 
 
 @stage
-def speed_of_ends(model, twist0, twist1, motion):
-    """Speed (m/s) that coupled points do not pass in an interval between two twists (6,), with its `motion` (platform.start_motion)."""
+def speed_of_ends(model, twists0, twists1, motions):
+    """Speed (m/s) that coupled points do not pass in an interval between two twists (M, 6), with its motions (platforms.start_motions)."""
+    fastest = 0.0
+    for m in range(motions.shape[0]):
+        speed = _speed_of_ends(model.reach[m], twists0[m], twists1[m], motions[m])
+        if not speed <= FASTEST:
+            return speed  # which may be no number
+        fastest = max(fastest, speed)
+    return fastest
+
+
+@stage
+def _speed_of_ends(reach, twist0, twist1, motion):
     square, turn, moved, turned = 0.0, 0.0, 0.0, 0.0
     for k in range(3):
         square = max(square, twist0[k] ** 2, twist1[k] ** 2)
         turn = max(turn, twist0[3 + k] ** 2, twist1[3 + k] ** 2)
         moved += (motion[2, k] - motion[0, k]) ** 2
         turned += motion[4, k] ** 2
-    return 2.0 * np.sqrt(square) + 2.0 * model.reach * np.sqrt(turn) + (np.sqrt(moved) + model.reach * np.sqrt(turned)) / motion[7, 0]
+    return 2.0 * np.sqrt(square) + 2.0 * reach * np.sqrt(turn) + (np.sqrt(moved) + reach * np.sqrt(turned)) / motion[7, 0]
 
 
 @stage
-def hardest_acceleration(model, motion):
-    """Acceleration (m/s^2) that coupled points do not pass in an interval with its `motion` (platform.start_motion), turning for small angles."""
+def hardest_acceleration(model, motions):
+    """Acceleration (m/s^2) that coupled points do not pass in an interval with its motions (platforms.start_motions), turning for small angles."""
+    hardest = 0.0
+    for m in range(motions.shape[0]):
+        hardest = max(hardest, _hardest_acceleration(model.reach[m], motions[m]))
+    return hardest
+
+
+@stage
+def _hardest_acceleration(reach, motion):
     hardest = 0.0
     for s in (0.0, 1.0):
         place, turn = 0.0, 0.0
@@ -33,7 +52,7 @@ def hardest_acceleration(model, motion):
             moved = 6.0 * (motion[2, k] - motion[0, k]) - a * motion[1, k] - b * motion[3, k]
             turned = 6.0 * motion[4, k] - a * motion[5, k] - b * motion[6, k]
             place, turn = place + moved * moved, turn + turned * turned
-        hardest = max(hardest, np.sqrt(place) + model.reach * np.sqrt(turn))
+        hardest = max(hardest, np.sqrt(place) + reach * np.sqrt(turn))
     return hardest / (motion[7, 0] * motion[7, 0])
 
 

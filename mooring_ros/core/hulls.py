@@ -110,8 +110,9 @@ def add_hulls(model, state, b, quaternion, omega, mass, matrix):
 @stage
 def coupled_hull_load(model, state, h, acceleration):
     """(force (3,), moment (3,)) of hull h on the platform that carries it, whose own place has `acceleration` (3,): see `hull_load`, less its added mass."""
-    quaternion = (state.pose[3], state.pose[4], state.pose[5], state.pose[6])
-    force, moment = hull_load(model, state, h, quaternion, (state.twist[3], state.twist[4], state.twist[5]))
+    m = model.point_platform[model.hulls.point[h]]
+    quaternion = (state.pose[m, 3], state.pose[m, 4], state.pose[m, 5], state.pose[m, 6])
+    force, moment = hull_load(model, state, h, quaternion, (state.twist[m, 3], state.twist[m, 4], state.twist[m, 5]))
     share = state.wet[model.point_node[model.hulls.point[h]]]
     fx, fy, fz = force
     for k in range(3):

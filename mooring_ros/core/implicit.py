@@ -19,7 +19,7 @@ from .implicit_newton import LOOSE, NEWTON_DONE, TOLERANCE, Work, balance_step, 
 from .implicit_parts import share_accelerations
 from .implicit_plan import make_topology
 from .packed import entry
-from .platform import start_motion
+from .platforms import average_acceleration, end_interval, recall_acceleration, start_motions
 from .readings import show
 from .surface import all_wet
 from .waves import copy_window, outdated, refresh
@@ -85,7 +85,7 @@ def take_step(model, state, scratch, plan, work, scheme, h, start, share, fastes
         keep_tension(model, state, scratch)
         piece = h * pieces / FINEST
         end = start + share * (at + pieces) / FINEST
-        settings[6] = state.clock[0] + end * scratch.motion[7, 0]
+        settings[6] = state.clock[0] + end * scratch.motion[0, 7, 0]
         tolerance = LOOSE if pieces == 1 else TOLERANCE
         status, iterations, evaluations = balance_step(model, state, scratch, plan, work, scheme, piece, end, tolerance)
         report[0] += evaluations
@@ -114,30 +114,27 @@ def take_step(model, state, scratch, plan, work, scheme, h, start, share, fastes
 
 
 @paragraph
-def advance(model, state, scratch, plan, work, scheme, longest, time, pose, twist, progress, report):
-    """Advance `state` to `time` (s), where the platform has `pose` (7,) and `twist` (6,), in steps of at most `longest` (s). Returns a status code.
+def advance(model, state, scratch, plan, work, scheme, longest, time, poses, twists, progress, report):
+    """Advance `state` to `time` (s), where the platforms have poses (M, 7) and twists (M, 6), in steps of at most `longest` (s). Returns a status code.
 
     A refused interval leaves the state as it was. `report` (4,) gets evaluations, pieces of steps, those taken again, and the shortest (s).
     `progress` (1,): steps done when PARTED is returned; called again with other equations, the interval is gone on with.
     """
     duration = time - state.clock[0]
-    start_motion(state.pose, state.twist, pose, twist, duration, scratch.motion)
-    ends = speed_of_ends(model, state.twist, twist, scratch.motion)
+    start_motions(state, poses, twists, duration, scratch.motion)
+    ends = speed_of_ends(model, state.twist, twists, scratch.motion)
     if not ends <= FASTEST:
         return TOO_FAST
     if not duration <= MOST_STEPS * longest:
         return TOO_LONG
     fastest = IMPLAUSIBLE * (model.natural_speed + ends)
-    settings, a = state.settings, state.acceleration_of_platform
+    settings = state.settings
     if progress[0] == 0:
         save(model, state, scratch, 0)
         save_accelerations(state, work)
         for k in range(9):
             work.settings[k] = settings[k]
-        smooth = min(duration / SMOOTHING, 1.0)
-        for i in range(6):
-            work.platform[i] = a[i]
-            a[i] += smooth * ((twist[i] - state.twist[i]) / duration - a[i])
+        average_acceleration(state, scratch, twists, duration, min(duration / SMOOTHING, 1.0))
         work.settings[9] = 0.0  # whether the waves have been looked at further ahead
         report[0], report[1], report[2], report[3] = 0.0, 0.0, 0.0, duration
     settings[0], settings[1], settings[8] = 0.0, 0.0, 0.0
@@ -169,8 +166,7 @@ def advance(model, state, scratch, plan, work, scheme, longest, time, pose, twis
     torn = good and overstretched(model, state, settings[5])
     if torn or not good:
         recall(model, state, scratch, 0)
-        for i in range(6):
-            a[i] = work.platform[i]
+        recall_acceleration(state, scratch)
         for k in range(9):
             settings[k] = work.settings[k]
         if settings[2] == 0.0:
@@ -180,18 +176,14 @@ def advance(model, state, scratch, plan, work, scheme, longest, time, pose, twis
         evaluate_in_place(model, state, scratch, settings[0], settings[1], settings[2] != 0.0)
         recall_accelerations(state, work)
         return OVERSTRETCHED if torn else RUNAWAY
-    for i in range(7):
-        state.pose[i] = pose[i]
-    for i in range(6):
-        state.twist[i] = twist[i]
-    state.clock[0] = time
+    end_interval(state, time, poses, twists)
     return DONE
 
 
 @entry
 @kernel
 def run(model, state, scratch, plan, work, scheme, longest, times, poses, twists, first, progress, report, readings):
-    """Advance through samples from the `first` on: times (k,), poses (k, 7), twists (k, 6); readings get a row for each. Returns (status, samples done)."""
+    """Advance through samples from the `first` on: times (k,), poses (k, M, 7), twists (k, M, 6); readings get a row for each. Returns (status, samples done)."""
     for sample in range(first, times.size):
         status = advance(model, state, scratch, plan, work, scheme, longest, times[sample], poses[sample], twists[sample], progress, report)
         if status != DONE:
@@ -293,5 +285,4 @@ def _new_work(model, plan):
         saved=np.zeros((2, 3, n)),
         saved_parts=np.zeros((2, parts, 6)),
         settings=np.zeros(10),
-        platform=np.zeros(6),
     )

@@ -60,7 +60,6 @@ class Work(NamedTuple):
     saved: np.ndarray  # (2, 3, n): accelerations of the interval's start
     saved_parts: np.ndarray  # (2, B, 6)
     settings: np.ndarray  # (10,): State.settings of the interval's start, and whether the waves have been looked at further ahead
-    platform: np.ndarray  # (6,): its acceleration, of the interval's start
 
 
 class Scheme(NamedTuple):

@@ -4,7 +4,7 @@ Every place where something can be held is an internal point: the scene's points
 gravity (with its weight) and one at its origin (with its volume), and for each failure one that takes the ends it lets go.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -12,8 +12,9 @@ from ..scene import BODY, COUPLED, COUPLED_PINNED, FIXED, FREE, PINNED, RodEnd
 
 # kinds of internal points
 POINT_FIXED, POINT_COUPLED, POINT_FREE, POINT_RIDING = 0, 1, 2, 3
-NO_PART, NO_PIN = -1, -1
+NO_PART, NO_PIN, NO_PLATFORM = -1, -1, -1
 
+_AT_ORIGIN = dict(position=(0.0, 0.0, 0.0), orientation=(0.0, 0.0, 0.0, 1.0))
 _KINDS = {FIXED: POINT_FIXED, COUPLED: POINT_COUPLED, FREE: POINT_FREE}
 
 
@@ -24,6 +25,7 @@ class Place:
     kind: int
     position: np.ndarray  # (3,) m
     part: int = NO_PART
+    platform: int = NO_PLATFORM  # that carries a coupled one
     mass: float = 0.0  # kg
     weight: float = 0.0  # kg: what gravity pulls at
     volume: float = 0.0  # m^3
@@ -83,16 +85,21 @@ class RodNodes:
 
 
 class Layout:
-    """Internal points, parts, rods and outputs of a scene.
+    """Internal points, parts, rods and outputs of a scene, whose coupled things ride on one platform, or on several.
 
+    platforms: names of coupled bodies, each a platform of its own: its axes are the body's, and what is coupled rides on one of them
+    (`platforms.checked_platforms`). Without any there is one platform, whose axes at its zero pose are the world's.
     points, parts, hulls: lists of Place, Part and Hull. rods: dict of rod id -> RodNodes. body_parts: dict of body id -> part of the free ones.
     outputs: names of the coupled points, rods and bodies.
     """
 
-    def __init__(self, scene):
+    def __init__(self, scene, platforms=()):
         self.points, self.parts, self.hulls, self.rods, self.outputs = [], [], [], {}, []
         self.output_point, self.output_inertia, self.output_surplus = [], [], []  # of each output: see _output
-        self._bodies = {body.id: body for body in scene.bodies}
+        numbers = {name: number for number, name in enumerate(platforms)}
+        self.platform_count = max(len(platforms), 1)
+        self.platforms = {body.id: numbers.get(body.name, 0) for body in scene.bodies if body.kind == COUPLED}
+        self._bodies = {body.id: replace(body, **_AT_ORIGIN) if body.name in numbers else body for body in scene.bodies}
         self.body_parts = {}
         for body in scene.bodies:
             if body.kind == FREE:
@@ -102,7 +109,7 @@ class Layout:
             self._add_scene_point(point)
         for rod in scene.rods:
             self._add_rod(rod)
-        for body in scene.bodies:
+        for body in self._bodies.values():
             self._add_body(body)
         self.failure_points = range(len(self.points), len(self.points) + len(scene.failures))
         self.points += [Place(POINT_FREE, np.zeros(3)) for _ in scene.failures]
@@ -138,14 +145,15 @@ class Layout:
     # -- carriers ---------------------------------------------------------------------------------------------------------------------
 
     def _carried(self, kind, body_id, position):
-        """(kind, place, part) of something at `position` (3,) in the axes that the file gives it in."""
+        """(kind, place, part, platform) of something at `position` (3,) in the axes that the file gives it in."""
         position = np.array(position, dtype=float)
         if kind != BODY:
-            return _KINDS[kind], position, NO_PART
+            return _KINDS[kind], position, NO_PART, 0 if kind == COUPLED else NO_PLATFORM
         body = self._bodies[body_id]
         if body.kind == FREE:
-            return POINT_RIDING, position, self.body_parts[body_id]
-        return _KINDS[body.kind], np.array(body.position) + turned(body.orientation, position), NO_PART
+            return POINT_RIDING, position, self.body_parts[body_id], NO_PLATFORM
+        place = np.array(body.position) + turned(body.orientation, position)
+        return _KINDS[body.kind], place, NO_PART, self.platforms.get(body_id, NO_PLATFORM)
 
     def _output(self, name, point, inertia=0.0, surplus=0.0):
         """Add an output: its internal point, the inertia (3, 3) that its lumps of mass do not have (kg m^2), and what those of added mass have too much (m^5)."""
@@ -156,8 +164,8 @@ class Layout:
         return len(self.outputs) - 1
 
     def _add_scene_point(self, point):
-        kind, place, part = self._carried(point.kind, point.body, point.position)
-        own = Place(kind, place, part, point.mass, point.mass, point.volume, point.drag_area, point.added_mass)
+        kind, place, part, platform = self._carried(point.kind, point.body, point.position)
+        own = Place(kind, place, part, platform, point.mass, point.mass, point.volume, point.drag_area, point.added_mass)
         if kind == POINT_COUPLED:
             own.attachment = self._output(point.name, len(self.points))
         if kind == POINT_RIDING:
@@ -190,8 +198,8 @@ class Layout:
         if carried[0][0] == POINT_COUPLED:
             lumped = carried[-1][0] == POINT_COUPLED and length > 0.0  # not those of a pinned one
             output = self._output(rod.name, first, *(_beside_lumps(rod, axis, length) if lumped else ()))
-        for kind, place, part in carried:
-            self.points.append(Place(kind, place, part, attachment=output if kind == POINT_COUPLED else -1))
+        for *carrier, platform in carried:
+            self.points.append(Place(*carrier, platform, attachment=output if platform != NO_PLATFORM else -1))
         self.rods[rod.id] = RodNodes(rod.type, range(first, len(self.points)), length, axis, free_joint, carried[-1][2])
 
     def _free_rod(self, rod, a, span, places):
@@ -203,10 +211,10 @@ class Layout:
         self._add_rod_mass(part, rod, a + 0.5 * span - origin, span / length, length)
         index = len(self.parts)
         self.parts.append(part)
-        carried = [(POINT_RIDING, place - origin, index) for place in places]
+        carried = [(POINT_RIDING, place - origin, index, NO_PLATFORM) for place in places]
         if pinned:
             part.pin = len(self.points)
-            carried[0] = (POINT_FIXED if rod.kind == PINNED else POINT_COUPLED, a, NO_PART)
+            carried[0] = (POINT_FIXED, a, NO_PART, NO_PLATFORM) if rod.kind == PINNED else (POINT_COUPLED, a, NO_PART, 0)
         return carried
 
     @staticmethod

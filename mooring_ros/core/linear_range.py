@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .linear import LinearResponse, Measure
+from .linear import LinearResponse, Measure, solutions
 from .poses import between, distance
 from .readings import Readings
 
@@ -23,7 +23,7 @@ KEPT = 32  # responses; the oldest one goes
 
 @dataclass(frozen=True)
 class Difference:
-    """What the answer had more than the response that took over, at `pose` (7,): readings of one row, fading over `length` (m) to `share`."""
+    """What the answer had more than the response that took over, at `pose` (M, 7): readings of one row, fading over `length` (m) to `share`."""
 
     readings: Readings
     size: float  # as an error (linear.Measure)
@@ -50,12 +50,12 @@ class LinearRange:
         return self.kept[self.active]
 
     def error(self, pose):
-        """Estimated error at `pose` (7,), a share: see linear.Measure."""
+        """Estimated error at `pose` (M, 7), a share: see linear.Measure."""
         rest = self.difference.share * self.difference.size if self.difference else 0.0
         return self.response.error(pose) + rest
 
     def show(self, state, pose, twist, row, readings):
-        """Put the answer at `pose` (7,), `twist` (6,) into one row of `readings`, and places and tensions of the nodes into `state`."""
+        """Put the answer at `pose` (M, 7), `twist` (M, 6) into one row of `readings`, and places and tensions of the nodes into `state`."""
         shown = self.response.readings(pose)
         for values, own in zip(readings, shown):
             values[row] = own[0]
@@ -63,11 +63,11 @@ class LinearRange:
             for values, rest in zip(readings, self.difference.readings):
                 values[row] += self.difference.share * rest[0]
         np.maximum(readings.tension[row], 0.0, out=readings.tension[row])
-        readings.length_rate[row] = np.tensordot(twist, self.response.slope.length, 1)
+        readings.length_rate[row] = np.tensordot(twist.ravel(), self.response.slope.length, 1)
         self.response.shape(pose, state)
 
     def follow(self, pose, solve, derive):
-        """The LinearRange with which `pose` (7,) is answered.
+        """The LinearRange with which `pose` (M, 7) is answered.
 
         solve(pose) gives the true readings of one row; derive(pose) a LinearResponse about it and leaves its State behind.
         """
@@ -84,7 +84,7 @@ class LinearRange:
             return after._take_over(after.kept, nearest, pose)
         response = derive(pose)
         kept = (*after.kept, replace(response, factor=max(response.factor, min(here.factor, 2.0))))
-        after = replace(after, solved=after.solved + 28, derived=after.derived + 1)
+        after = replace(after, solved=after.solved + solutions(len(pose)), derived=after.derived + 1)
         return after._take_over(kept, len(kept) - 1, pose)
 
     def _take_over(self, kept, active, pose):

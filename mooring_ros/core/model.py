@@ -47,7 +47,8 @@ class Rigid(NamedTuple):
 
 @packed
 class Model(NamedTuple):
-    """What does not change. n = all nodes and one more; E = 2 x lines (end A, end B of each in turn); P = internal points; O = outputs. World frame, SI."""
+    """What does not change. n = all nodes and one more; E = 2 x lines (end A, end B of each in turn); P = internal points; O = outputs; M = platforms.
+    World frame, SI."""
 
     size: int  # nodes a pass runs over: a multiple of LANES
     # segments, (n,)
@@ -74,22 +75,24 @@ class Model(NamedTuple):
     bed_level: float  # z of the bed, m
     natural_speed: float  # m/s that a sound mooring hardly passes while its ends stand still
     gentle: float  # m/s: least of the lines' weight over their impedance, sqrt(EA m), for axial waves
-    reach: float  # m from the platform's reference point to the farthest coupled point
+    reach: np.ndarray  # (M,) m from each platform's reference point to the farthest point that it carries
     bulk: float  # m, radius of the thickest of all
     # ends, (E,)
     end_node: np.ndarray  # index of the line's end node
     # points, (P,)
     point_node: np.ndarray  # index of the point's node
     point_kind: np.ndarray  # POINT_*
-    point_place: np.ndarray  # (P, 3), m: fixed: world; coupled: in the platform's frame; free: where it starts
+    point_platform: np.ndarray  # platform that carries a coupled one, or -1
+    point_place: np.ndarray  # (P, 3), m: fixed: world; coupled: in its platform's frame; free: where it starts
     point_diameter: np.ndarray  # m, of the sphere of its volume
     free_points: np.ndarray  # indices of the free ones
-    coupled_points: np.ndarray  # ... and of the coupled ones
+    coupled_points: np.ndarray  # ... and of the coupled ones, platform by platform
+    coupled_first: np.ndarray  # (M + 1,) where those of each platform begin among them
     free_index: np.ndarray  # row of a free point among the free ones, or -1
     output_of: np.ndarray  # the output that it belongs to, or -1
     # outputs: coupled points, rods and bodies, (O,)
     output_point: np.ndarray  # internal point at which its wrench is given
-    output_inertia: np.ndarray  # (O, 3, 3) kg m^2, platform's axes: what lumps of mass do not have
+    output_inertia: np.ndarray  # (O, 3, 3) kg m^2, its platform's axes: what lumps of mass do not have
     output_surplus: np.ndarray  # (O, 3, 3) kg m^2: what lumps of added mass on rods have too much, when wet
     # lines, (lines,)
     first_node: np.ndarray
@@ -110,9 +113,9 @@ class State(NamedTuple):
     """What changes, all of it: a snapshot is a copy of these arrays. Shapes as in Model."""
 
     clock: np.ndarray  # (1,), s
-    pose: np.ndarray  # (7,), m and quaternion x, y, z, w
-    twist: np.ndarray  # (6,), m/s, rad/s, world
-    acceleration_of_platform: np.ndarray  # (6,), m/s^2, rad/s^2, world: mean over the last interval, or over a step where that is longer
+    pose: np.ndarray  # (M, 7) of the platforms, m and quaternion x, y, z, w
+    twist: np.ndarray  # (M, 6), m/s, rad/s, world
+    acceleration_of_platform: np.ndarray  # (M, 6), m/s^2, rad/s^2, world: mean over the last interval, or over a step where that is longer
     parts: np.ndarray  # (B, 13): place (m), quaternion, velocity (m/s) and spin (rad/s) of the rigid parts, world
     parts_acceleration: np.ndarray  # (B, 6), m/s^2, rad/s^2, world
     parts_reaction: np.ndarray  # (B, 6), N and N m of pinned parts on what carries their origin
@@ -159,7 +162,8 @@ class Scratch(NamedTuple):
     envelope: np.ndarray  # (3 F,)
     joint_change: np.ndarray  # (3 F,), m/s
     tension: np.ndarray  # (n,), before a step's last stage
-    motion: np.ndarray  # (8, 3): platform.start_motion
+    motion: np.ndarray  # (M, 8, 3): platforms.start_motions
+    saved_platforms: np.ndarray  # (M, 6): their accelerations at the interval's start
     parts: np.ndarray  # (B, 13), of a step's start
     creep: np.ndarray  # as in State, of a step's start
     saved_parts: np.ndarray  # (2, B, 13), and so on: as `saved`
@@ -221,7 +225,10 @@ def build(scene, segments=None, layout=None):
     diameters = [_place_point(rows, place, node, env) for place, node in zip(layout.points, point_node)]
 
     kinds = np.array([place.kind for place in layout.points], dtype=np.int64)
+    platforms = np.array([place.platform for place in layout.points], dtype=np.int64)
     coupled = np.flatnonzero(kinds == POINT_COUPLED)
+    coupled = coupled[np.argsort(platforms[coupled], kind="stable")]
+    coupled_first = np.searchsorted(platforms[coupled], np.arange(layout.platform_count + 1))
     places = np.array([place.position for place in layout.points], dtype=float).reshape(-1, 3)
     model = Model(
         size=size,
@@ -229,15 +236,17 @@ def build(scene, segments=None, layout=None):
         bed_level=-float(env.depth),
         natural_speed=natural_speed(scene),
         gentle=_gentle(scene, rows, first_node),
-        reach=max(np.linalg.norm(places[coupled], axis=1), default=0.0),
+        reach=np.array([np.linalg.norm(places[platforms == m], axis=1).max(initial=0.0) for m in range(layout.platform_count)]),
         bulk=0.5 * max(rows["diameter"].max(), *diameters),
         end_node=np.array(end_node, dtype=np.int64),
         point_node=point_node,
         point_kind=kinds,
+        point_platform=platforms,
         point_place=places,
         point_diameter=np.array(diameters, dtype=float),
         free_points=np.flatnonzero(kinds == POINT_FREE),
         coupled_points=coupled,
+        coupled_first=coupled_first,
         free_index=np.where(kinds == POINT_FREE, np.cumsum(kinds == POINT_FREE) - 1, -1),
         output_of=np.array([place.attachment for place in layout.points], dtype=np.int64),
         output_point=np.array(layout.output_point, dtype=np.int64),
@@ -251,7 +260,7 @@ def build(scene, segments=None, layout=None):
         ropes=build_ropes([(line.type, start, count, line.length / count) for line, start, count in zip(scene.lines, first_node, counts)]),
         failures=_failures(scene, layout),
         bending=_bending(scene, layout, first_node, counts, n),
-        clamps=build_clamps(layout.clamps(scene), kinds),
+        clamps=build_clamps(layout.clamps(scene), platforms),
         ground=build_ground(env),
         sea=build_sea(env),
     )
@@ -401,9 +410,9 @@ def new_state(model, end_point):
     stream[:] = model.sea.current[:, None]
     return State(
         clock=np.zeros(1),
-        pose=np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]),
-        twist=np.zeros(6),
-        acceleration_of_platform=np.zeros(6),
+        pose=np.tile([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0], (model.reach.size, 1)),
+        twist=np.zeros((model.reach.size, 6)),
+        acceleration_of_platform=np.zeros((model.reach.size, 6)),
         parts=np.hstack([model.rigid.start, np.zeros((parts, 6))]),
         parts_acceleration=np.zeros((parts, 6)),
         parts_reaction=np.zeros((parts, 6)),
@@ -452,7 +461,8 @@ def new_scratch(model):
         envelope=np.zeros(joints, dtype=np.int64),
         joint_change=np.zeros(joints),
         tension=np.zeros(n),
-        motion=np.zeros((8, 3)),
+        motion=np.zeros((model.reach.size, 8, 3)),
+        saved_platforms=np.zeros((model.reach.size, 6)),
         parts=np.zeros((parts, 13)),
         creep=np.zeros(creeping),
         saved_parts=np.zeros((2, parts, 13)),

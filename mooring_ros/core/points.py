@@ -14,10 +14,17 @@ from .tension import TINY
 
 @stage
 def _move_coupled_points(model, state, motion, s, with_place, euler_step, staggered):
+    for m in range(motion.shape[0]):
+        _move_with_platform(model, state, motion[m], m, s, with_place, euler_step, staggered)
+
+
+@stage
+def _move_with_platform(model, state, motion, m, s, with_place, euler_step, staggered):
     place, velocity, phi, omega = platform_at(motion, s)
-    quaternion = (state.pose[3], state.pose[4], state.pose[5], state.pose[6])  # of the interval's start
-    turn_clamps_with_platform(model, state, quaternion, phi)
-    for i in range(model.coupled_points.size):
+    pose = state.pose  # of the interval's start
+    quaternion = (pose[m, 3], pose[m, 4], pose[m, 5], pose[m, 6])
+    turn_clamps_with_platform(model, state, m, quaternion, phi)
+    for i in range(model.coupled_first[m], model.coupled_first[m + 1]):
         p = model.coupled_points[i]
         node = model.point_node[p]
         arm = (model.point_place[p, 0], model.point_place[p, 1], model.point_place[p, 2])
@@ -36,7 +43,7 @@ def _move_coupled_points(model, state, motion, s, with_place, euler_step, stagge
 
 @stage
 def place_coupled_points(model, state, motion, s):
-    """Put the nodes of the coupled points where the platform carries them at s in 0..1 of its interval."""
+    """Put the nodes of the coupled points where their platforms carry them at s in 0..1 of the interval; motion (M, 8, 3)."""
     _move_coupled_points(model, state, motion, s, True, 0.0, False)
 
 
@@ -179,19 +186,20 @@ def hold_prescribed(model, state):
 
 @stage
 def point_acceleration(model, state, p):
-    """Acceleration (m/s^2) of the point p: that of the platform's place, of its node, or none."""
+    """Acceleration (m/s^2) of the point p: that of its place on its platform, of its node, or none."""
     node = model.point_node[p]
     if not _prescribed(model, p):
         return state.acceleration[0, node], state.acceleration[1, node], state.acceleration[2, node]
     if model.point_kind[p] == POINT_FIXED:
         return 0.0, 0.0, 0.0
-    a = state.acceleration_of_platform
+    m = model.point_platform[p]
+    a = state.acceleration_of_platform[m]
     arm = (
-        state.position[0, node] - state.pose[0],
-        state.position[1, node] - state.pose[1],
-        state.position[2, node] - state.pose[2],
+        state.position[0, node] - state.pose[m, 0],
+        state.position[1, node] - state.pose[m, 1],
+        state.position[2, node] - state.pose[m, 2],
     )
-    omega = (state.twist[3], state.twist[4], state.twist[5])
+    omega = (state.twist[m, 3], state.twist[m, 4], state.twist[m, 5])
     inward = cross(omega, cross(omega, arm))
     turn = cross((a[3], a[4], a[5]), arm)
     return a[0] + turn[0] + inward[0], a[1] + turn[1] + inward[1], a[2] + turn[2] + inward[2]

@@ -18,7 +18,7 @@ from .tension import TINY
 class Readings(NamedTuple):
     """Rows of readings, one a sample; k rows, world frame."""
 
-    wrench: np.ndarray  # (k, 6) on the platform about its reference point, N and N m
+    wrench: np.ndarray  # (k, M, 6) on each platform about its reference point, N and N m
     tension: np.ndarray  # (k, lines, 2) of the segments at the anchor and at the fairlead, N
     end_force: np.ndarray  # (k, lines, 2, 3) of the line on what holds its anchor end and its fairlead end, N
     length: np.ndarray  # (k, lines) stretched, m
@@ -29,7 +29,7 @@ class Readings(NamedTuple):
 def new_readings(model, rows):
     lines, outputs = model.first_node.size, model.output_point.size
     return Readings(
-        np.zeros((rows, 6)),
+        np.zeros((rows, model.reach.size, 6)),
         np.zeros((rows, lines, 2)),
         np.zeros((rows, lines, 2, 3)),
         np.zeros((rows, lines)),
@@ -116,12 +116,12 @@ def _slow_turning(model, o, wet, spin):
 @stage
 def _show_bodies(model, state, row, readings):
     """What the turning of coupled bodies takes, and what clamps and pinned parts hand to the platform."""
-    q = (state.pose[3], state.pose[4], state.pose[5], state.pose[6])
-    back = (-q[0], -q[1], -q[2], q[3])
-    omega = (state.twist[3], state.twist[4], state.twist[5])
-    a = state.acceleration_of_platform
-    alpha = (a[3], a[4], a[5])
+    pose, twist, a = state.pose, state.twist, state.acceleration_of_platform
     for o in range(model.output_point.size):
+        m = model.point_platform[model.output_point[o]]
+        q = (pose[m, 3], pose[m, 4], pose[m, 5], pose[m, 6])
+        back = (-q[0], -q[1], -q[2], q[3])
+        omega, alpha = (twist[m, 3], twist[m, 4], twist[m, 5]), (a[m, 3], a[m, 4], a[m, 5])
         wet = _wet_share(model, state, o)
         spun, slow = rotate(back, alpha), rotate(back, omega)
         turning = rotate(q, _slow_turning(model, o, wet, spun))
@@ -137,7 +137,7 @@ def _show_bodies(model, state, row, readings):
             for k in range(3):
                 readings.coupled[row, o, 3 + k] += moment[k]
     for c in range(model.clamps.part.size):
-        if model.clamps.riding[c] != 0:
+        if model.clamps.platform[c] >= 0:
             o = model.output_of[model.bending.clamp_point[c]]
             for k in range(3):
                 readings.coupled[row, o, 3 + k] += state.clamp_moment[c, k]
@@ -162,20 +162,23 @@ def show(model, state, row, readings):
     for line in range(model.first_node.size):
         _show_line(model, state, row, readings, line)
     _show_bodies(model, state, row, readings)
-    wx, wy, wz, mx, my, mz = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    w = readings.wrench
+    for m in range(w.shape[1]):
+        for k in range(6):
+            w[row, m, k] = 0.0
     for o in range(model.output_point.size):
-        node = model.point_node[model.output_point[o]]
+        p = model.output_point[o]
+        node, m = model.point_node[p], model.point_platform[p]
         f = (coupled[row, o, 0], coupled[row, o, 1], coupled[row, o, 2])
         arm = (
-            state.position[0, node] - state.pose[0],
-            state.position[1, node] - state.pose[1],
-            state.position[2, node] - state.pose[2],
+            state.position[0, node] - state.pose[m, 0],
+            state.position[1, node] - state.pose[m, 1],
+            state.position[2, node] - state.pose[m, 2],
         )
         moment = cross(arm, f)
-        wx, wy, wz = wx + f[0], wy + f[1], wz + f[2]
-        mx, my, mz = mx + moment[0] + coupled[row, o, 3], my + moment[1] + coupled[row, o, 4], mz + moment[2] + coupled[row, o, 5]
-    w = readings.wrench
-    w[row, 0], w[row, 1], w[row, 2], w[row, 3], w[row, 4], w[row, 5] = wx, wy, wz, mx, my, mz
+        for k in range(3):
+            w[row, m, k] += f[k]
+            w[row, m, 3 + k] = w[row, m, 3 + k] + moment[k] + coupled[row, o, 3 + k]
 
 
 observe = entry(show)

@@ -80,7 +80,7 @@ class StaticSolver:
     # -- placing ----------------------------------------------------------------------------------------------------------------------
 
     def place(self, state, pose, first_guess=True):
-        """Put points where `pose` (7,) carries them, at rest, and (with `first_guess`) lines on their catenaries."""
+        """Put points where the platforms at `pose` (M, 7) carry them, at rest, and (with `first_guess`) lines on their catenaries."""
         model = self.model
         state.pose[:] = pose
         state.twist[:] = 0.0
@@ -94,11 +94,12 @@ class StaticSolver:
             state.parts[:, :7] = model.rigid.start
         for p, node in enumerate(model.point_node):
             if model.point_kind[p] == POINT_COUPLED:
-                state.position[:, node] = pose[:3] + np.array(rotate(pose[3:], model.point_place[p]))
+                own = pose[model.point_platform[p]]
+                state.position[:, node] = own[:3] + np.array(rotate(own[3:], model.point_place[p]))
             elif model.point_kind[p] == POINT_FIXED or first_guess and model.point_kind[p] != POINT_RIDING:
                 state.position[:, node] = model.point_place[p]
-        for c in np.flatnonzero(model.clamps.riding):
-            state.clamp_axis[c] = rotate(pose[3:], model.clamps.axis[c])
+        for c in np.flatnonzero(model.clamps.platform >= 0):
+            state.clamp_axis[c] = rotate(pose[model.clamps.platform[c], 3:], model.clamps.axis[c])
         for p in model.rigid.riding:
             part = state.parts[model.rigid.part[p]]
             state.position[:, model.point_node[p]] = part[:3] + np.array(rotate(part[3:7], model.point_place[p]))
@@ -407,16 +408,17 @@ class StaticSolver:
         self._freedom.put(state, _configuration(state), step, TIPPED)
 
     def platform_stiffness(self, state, scratch):
-        """(6, 6) minus the change of the wrench with the pose at an equilibrium in `state`; rotations about the world axes."""
+        """(6 M, 6 M) minus the change of the wrenches with the poses at an equilibrium in `state`; rotations about the world axes."""
         free = self._freedom
+        held = np.arange(free.count, free.count + 6 * self.model.reach.size)
         if not self.model.coupled_points.size:
-            return np.zeros((6, 6))
+            return np.zeros((held.size, held.size))
         state.settings[7] = 1.0
         _evaluate_at_rest(self.model, state, scratch)
         rope_statics(self.model.ropes, state.tension, self.model.stiffness, self._slack_strain)
         equations = Equations(self.model, free, self._pattern, self.weight, platform=True)
         total = equations.matrix(state, *self._stiffness(state, STIFFNESS_DAMPING))
-        kept, held = np.flatnonzero(np.repeat(free.kept, 3)), np.arange(free.count, free.count + 6)
+        kept = np.flatnonzero(np.repeat(free.kept, 3))
         own = total[held][:, held].toarray()
         if not kept.size:
             return own

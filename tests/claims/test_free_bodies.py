@@ -187,7 +187,7 @@ def test_end_forces_hold_the_inertia_of_the_half_segments():
     tension = mooring.fairlead_tension[0]
     omega, times = 0.5, np.arange(1, 101) * 0.01
     poses = np.array([np.concatenate([np.zeros(3), turn([0, 0, 1], omega * t)]) for t in times])
-    mooring._state.twist[5] = omega
+    mooring._state.twist[0, 5] = omega
     run = mooring.run(times, poses, np.tile([0, 0, 0, 0, 0, omega], (100, 1)))
     outward = np.array([np.cos(omega), np.sin(omega), 0.0])
     want = (50.0 * 9.999 / 2.0 * omega**2 * 5.0 - tension) * outward

@@ -114,7 +114,7 @@ def test_front_runs_at_the_bar_speed_and_has_the_impedance_height(damping, share
     span = LENGTH * (1.0 + strain)
     mooring = Mooring(vacuum([(FIXED, (0, 0, -50)), (COUPLED, (span, 0, -50))], [(kind, 1, 2, LENGTH, SEGMENTS)]), dt=2e-4)
     mooring.settle(HERE)
-    mooring._state.twist[0] = speed
+    mooring._state.twist[0, 0] = speed
     mooring._state.velocity[0, mooring._model.point_node[1]] = speed
     refresh(mooring)
     times = 2e-4 * np.arange(1, int(1.9 * LENGTH / CELERITY / 2e-4))
