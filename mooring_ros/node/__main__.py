@@ -42,6 +42,12 @@ class _Signals:
         if self.at_once and first:
             raise KeyboardInterrupt
 
+    @staticmethod
+    def ignore():
+        """For the end of the process: Python gives up handlers while it still has things to do, and a further signal would end it with another status."""
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, signal.SIG_IGN)
+
 
 def main(arguments=None):
     """Run the node until it is told to end; returns the exit status."""
@@ -76,6 +82,7 @@ def main(arguments=None):
         executor.shutdown()
         node.destroy_node()
         rclpy.try_shutdown()
+        signals.ignore()
     return 0
 
 

@@ -1,13 +1,14 @@
-"""The node's state as a DiagnosticArray: input, core, timing, accuracy, recording; counts and causes."""
+"""The node's state as a DiagnosticArray: state, input, core, timing, accuracy, recording; counts and causes."""
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
-from mooring_ros.motion.convention_check import MISSING, UNDECIDED
+from mooring_ros.motion.convention_check import MISSING, UNDECIDED, WRONG
 from mooring_ros.motion.gate import REASONS, REPEATED
-from mooring_ros.node.session import FAILED, REFUSED, WAITING
+from mooring_ros.node.states import HOLD, IDLE, RAMP, RUN, SAFE
 
 OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
 PREFIX = "mooring: "
 RECENT = 5.0        # s for which something that happened still colours the level
+LEVELS = {IDLE: WARN, RAMP: OK, RUN: OK, HOLD: WARN, SAFE: ERROR}
 
 
 class Diagnostics:
@@ -29,9 +30,16 @@ class Diagnostics:
             self._grown = {}
         message = DiagnosticArray()
         message.header.stamp = stamp
-        message.status = [self._input(now, session), self._core(now, session, lifecycle, problem), self._timing(now, timing or {}),
+        message.status = [self._state(now, session), self._input(now, session), self._core(now, session, lifecycle, problem), self._timing(now, timing or {}),
                           self._accuracy(accuracy), self._recording(recorder)]
         return message
+
+    def _state(self, now, session):
+        if session is None:
+            return self._status("state", OK, "not active", {"state": IDLE})
+        states = session.states
+        return self._status("state", LEVELS[states.state], f"{states.state}: {states.cause}", {
+            "state": states.state, "cause": states.cause, "for (s)": f"{1e-9 * (session.clock() - states.since):.3f}", "transitions": states.count})
 
     def _input(self, now, session):
         if session is None:
@@ -43,8 +51,8 @@ class Diagnostics:
         fresh_rejection = self._grew("rejected", rejected, now)
         fresh_input = self._grew("accepted", gate.accepted, now)
         level, words = OK, f"{gate.accepted} samples"
-        if session.state == WAITING:
-            level, words = WARN, WAITING
+        if session.state == IDLE:
+            level, words = WARN, f"waiting: {session.states.cause}"
         if session.check is not None:
             verdict = session.check.verdict
             values["twist check"] = verdict.text
@@ -58,8 +66,8 @@ class Diagnostics:
             level, words = WARN, f"{session.steps_in.lost} steps were lost on the way here, the nominal one is {1e-9 * session.steps_in.nominal:.6g} s"
         elif gate.resets is not None and self._grew("resets", gate.restarts, now) and level == OK:
             level, words = WARN, f"settled anew: {gate.resets.cause}"
-        if session.state == REFUSED:
-            level, words = ERROR, session.cause
+        if session.check is not None and session.check.verdict.kind == WRONG:
+            level, words = ERROR, session.check.verdict.text
         return self._status("input", level, words, values)
 
     @staticmethod
@@ -82,14 +90,12 @@ class Diagnostics:
         if session.wrenches is not None:
             values |= {"time (s)": f"{mooring.time:.3f}", "largest fairlead tension (N)": f"{mooring.fairlead_tension.max():.6g}"}
         level, words = OK, session.state
-        if output.holding:
-            level, words = WARN, f"output held: {output.holding}"
+        if session.state == HOLD:
+            level, words = WARN, f"output held: {session.states.cause}"
         if self._grew("limited", limited, now):
             level, words = ERROR, "output limited: " + ", ".join(f"{name} {count} times" for name, count in output.limited.items())
-        if session.state == FAILED:
-            level, words = ERROR, f"stopped, ~/settle restarts: {session.cause}"
-        elif session.state == REFUSED:
-            level, words = ERROR, "stopped: the input was refused"
+        if session.state == SAFE:
+            level, words = ERROR, f"stopped, ~/settle restarts: {session.states.cause}"
         return self._status("core", level, words, values)
 
     def _timing(self, now, timing):
@@ -124,3 +130,13 @@ class Diagnostics:
     def _status(self, name, level, words, values):
         return DiagnosticStatus(name=PREFIX + name, level=level, message=words, hardware_id=self._hardware_id,
                                 values=[KeyValue(key=key, value=str(value)) for key, value in values.items()])
+
+
+def fingerprint(session, lifecycle, problem="", missed=0, recorder=None):
+    """What is worth telling at once: when it differs from the last, something has happened. Cheap; arguments as of `Diagnostics.array`."""
+    own = (lifecycle, problem, missed, recorder and (recorder.error, recorder.lost))
+    if session is None:
+        return own
+    states, gate = session.states, session.gate
+    return (*own, states.state, states.cause, states.count, sum(gate.rejected.values()), gate.restarts, session.steps_in.lost,
+            sum(session.output.limited.values()), session.unanswered, session.unwound)

@@ -6,23 +6,24 @@ import time
 import traceback
 
 import numpy as np
-from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.clock import Clock, ClockType, JumpThreshold
 from rclpy.duration import Duration
 from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
-from rclpy.qos import QoSProfile
 from std_srvs.srv import Trigger
 
 from mooring_ros.mooring import Mooring, MooringError
 from mooring_ros.motion import Adapter, ConventionCheck, Gate, Limits, Velocity
 from mooring_ros.node import parameters
 from mooring_ros.node.accuracy import Companion, report
-from mooring_ros.node.diagnostics import Diagnostics
+from mooring_ros.node.diagnostics import Diagnostics, fingerprint
+from mooring_ros.node.heartbeat import Heartbeat
 from mooring_ros.node.inputs import Inputs
 from mooring_ros.node.output import Output
 from mooring_ros.node.outputs import Outputs
+from mooring_ros.node.reports import Reports
 from mooring_ros.node.resets import Resets
-from mooring_ros.node.session import RUNNING, Session
+from mooring_ros.node.session import Session
+from mooring_ros.node.states import HOLD, IDLE, SAFE, Transition
 from mooring_ros.node.timing import Durations, FixedRate, Pace
 from mooring_ros.node.winch import Winch
 from mooring_ros.recording.attached import AttachedScene
@@ -33,6 +34,7 @@ from mooring_ros.scene import load_scene
 SUCCESS, FAILURE, ERROR = TransitionCallbackReturn.SUCCESS, TransitionCallbackReturn.FAILURE, TransitionCallbackReturn.ERROR
 
 DIAGNOSTICS_PERIOD = 1.0    # s
+NEWS_PERIOD = 0.1           # s: what is new is told within it
 _BACKWARD = JumpThreshold(min_forward=None, min_backward=Duration(nanoseconds=-1), on_clock_change=False)
 _HOLD_TIME = 1.0            # s, the ramp into the safe state where ramp_time does not say
 
@@ -58,20 +60,21 @@ class MooringNode(LifecycleNode):
 
     def __init__(self, **keywords):
         super().__init__("mooring", **keywords)
-        self._session = self._inputs = self._winch = self._outputs = self._recorder = self._mooring = self._adapter = None
+        self._session = self._inputs = self._winch = self._heartbeat = self._outputs = self._recorder = self._mooring = self._adapter = None
         self._companion, self._settings = None, {}
         self._own_services = []
         self._timer = self._rate = None
+        self._axis = None           # ns: where the recording stands
         self._problem = ""
-        self._said, self._refused, self._restarts = None, 0, 0
+        self._refused = self._restarts = 0
         self._durations, self._pace = Durations(), Pace()
         parameters.declare(self, lambda: self._mooring is not None)
         self.add_post_set_parameters_callback(lambda _: self._apply_live_parameters())
         self._steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._resets, self._jumps = None, self.get_clock().create_jump_callback(_BACKWARD, post_callback=self._follow_clock)
         self._diagnostics = Diagnostics(self.get_fully_qualified_name())
-        self._diagnostics_publisher = self.create_publisher(DiagnosticArray, "/diagnostics", QoSProfile(depth=10))
-        self._diagnostics_timer = self.create_timer(DIAGNOSTICS_PERIOD, self._tick_diagnostics, clock=self._steady)
+        self._reports, self._told, self._told_at, self._collected = Reports(self), None, 0.0, 0.0
+        self._diagnostics_timer = self.create_timer(NEWS_PERIOD, self._tick_diagnostics, clock=self._steady)
 
     # --- lifecycle ---
 
@@ -96,17 +99,19 @@ class MooringNode(LifecycleNode):
         check = None if values["input"] == "pose" else ConventionCheck(self._adapter)
         self._resets = Resets(values["on_reset"])
         gate = Gate(self._adapter, Limits(), values["world_frame"], values["platform_frame"], _velocity(values), self._resets)
-        self._session = Session(self._mooring, gate, Output(), check)
-        self._said, self._refused, self._restarts = self._session.state, 0, 0
+        self._session = Session(self._mooring, gate, Output(), check, self._watch_now)
+        self._refused = self._restarts = 0
         self._pace = Pace()
         if values["accuracy.enabled"]:
             self._companion = Companion(self._mooring, self._settings, values["accuracy.share"], values["accuracy.window"])
+        timer = values["timing.mode"] == "timer"
+        self._rate = FixedRate(values["timing.rate"]) if timer else None
+        self._timer = self.create_timer(1.0 / values["timing.rate"], self._tick if timer else self._look,
+                                        clock=self.get_clock() if self._simulated else self._steady)
         self._apply_live_parameters()
-        if values["timing.mode"] == "timer":
-            self._rate = FixedRate(values["timing.rate"])
-            self._timer = self.create_timer(1.0 / values["timing.rate"], self._tick, clock=self.get_clock() if self._simulated else self._steady)
         self._inputs = Inputs(self, values["input"], values["twist_frame"], gate, self._take)
         self._winch = Winch(self, self._wind)
+        self._heartbeat = Heartbeat(self, self._session.beat)
         # Nothing of this start is garbage, and a collection in the middle of an answer would delay it: from here on, once a second.
         gc.collect()
         gc.freeze()
@@ -156,7 +161,7 @@ class MooringNode(LifecycleNode):
         for warning in mooring.warnings:
             self.get_logger().warning(warning)
         self._mooring, self._adapter, self._settings = mooring, adapter, settings
-        self._recorder = self._open_recording(values, scene)
+        self._recorder = self._reports.recorder = self._open_recording(values, scene)
         self._outputs = Outputs(self, mooring, adapter, self._recorder, values["visual_rate"])
         self._make_services(mooring.line_names)
         self.get_logger().info(f"configured: {values['scene']}, {len(mooring.line_names)} lines, {values['fidelity']}")
@@ -193,6 +198,7 @@ class MooringNode(LifecycleNode):
         if self._inputs is not None:
             self._inputs.destroy()
             self._winch.destroy()
+            self._heartbeat.destroy()
         if self._timer is not None:
             self.destroy_timer(self._timer)
         if self._session is not None:
@@ -201,7 +207,9 @@ class MooringNode(LifecycleNode):
         if self._companion is not None:
             self._companion.close()
             self._companion = None
-        self._inputs = self._winch = self._timer = self._rate = self._session = None
+        if self._session is not None and self._session.state != IDLE:
+            self._tell(Transition(self._session.clock(), self._session.state, IDLE, "deactivated", "not active"))
+        self._inputs = self._winch = self._heartbeat = self._timer = self._rate = self._session = None
 
     def _take_down(self):
         self._end_session()
@@ -211,6 +219,7 @@ class MooringNode(LifecycleNode):
         if self._outputs is not None:
             self._outputs.destroy()
         recorder, self._recorder = self._recorder, None
+        self._reports.recorder = self._axis = None
         self._outputs = self._mooring = self._adapter = None
         if recorder is not None:
             recorder.close()
@@ -228,7 +237,7 @@ class MooringNode(LifecycleNode):
             if self._rate is None:
                 answers = session.take(sample, now)
             else:
-                answers = session.observe(sample, now, self._watch_now())
+                answers = session.observe(sample, now)
             if answers is not None:
                 self._answer(answers, arrived)
         last = session.gate.last
@@ -248,33 +257,28 @@ class MooringNode(LifecycleNode):
         self._outputs.record_input(topic, type_name, data, stamp, stamp)
         self._after()
 
-    @property
-    def _simulated(self):
-        return self.get_clock().ros_time_is_active
-
-    def _watch_now(self):
-        """ns of the clock that watches over silence and paces the timer: steady, or that of the simulation, which may stand still."""
-        return self.get_clock().now().nanoseconds if self._simulated else time.monotonic_ns()
-
-    def _follow_clock(self, jump):
-        """/clock has gone back."""
-        if self._session is None:
-            return
-        self._resets.clock_went_back()
-        self._session.clock.restart()
-        if self._rate is not None:
-            self._rate.restart()
-
     def _tick(self):
         """One cycle of the timer mode."""
         begin = time.perf_counter_ns()
-        now = self._watch_now()
-        if not self._rate.due(now):
+        if not self._rate.due(self._watch_now()):
             return
-        answers = self._session.tick(now)
-        if answers is not None:
+        steps = self._session.steps
+        answers = self._session.tick()
+        if self._session.steps > steps:
             self._answer(answers, begin)
+        elif answers is not None:
+            self._repeat(answers)
         self._after()
+
+    def _look(self):
+        """The mode input, while there is something to watch, or no input to set the pace."""
+        answers = self._session.look()
+        if answers is not None:
+            self._repeat(answers)
+        self._after()
+
+    def _repeat(self, stamp):
+        self._outputs.repeat(stamp, self._outputs.answer(stamp, self._session), self._session.shown)
 
     def _answer(self, stamp, begin):
         gate, outputs = self._session.gate, self._outputs
@@ -295,14 +299,14 @@ class MooringNode(LifecycleNode):
         self._say_state()
 
     def _say_state(self):
-        """Log and publish at once when the session starts, stops, or begins to refuse; log refused samples now and then."""
+        """Log, publish and record every transition at once; log refused samples now and then."""
         session = self._session
-        if session.state != self._said:
-            self._said = session.state
-            if session.state == RUNNING:
-                self.get_logger().info("running")
-            else:
-                self.get_logger().error(f"{session.state}: {session.cause}; ~/settle restarts")
+        self._axis = session.shown or self._axis
+        news = session.states.news()
+        for transition in news:
+            self._tell(transition)
+        if news:
+            self._arm()
             self.publish_diagnostics("active")
         elif session.gate.restarts > self._restarts:
             self._restarts = session.gate.restarts
@@ -310,6 +314,42 @@ class MooringNode(LifecycleNode):
         elif session.gate.received > session.gate.accepted + self._refused:
             self._refused = session.gate.received - session.gate.accepted
             self.get_logger().warning(f"input refused, {self._refused} so far, the last: {session.gate.cause}", throttle_duration_sec=5.0)
+
+    def _tell(self, transition):
+        words = str(transition)
+        if transition.after == SAFE:
+            self.get_logger().error(f"{words}; ~/settle restarts")
+        elif transition.after == HOLD:
+            self.get_logger().warning(words)
+        else:
+            self.get_logger().info(words)
+        self._reports.transition(transition, self._axis)
+
+    def _arm(self):
+        """Let the timer of the mode input run only while it is needed."""
+        if self._rate is None:
+            needed = self._session.states.held or self._session.watch.on
+            if needed and self._timer.is_canceled():
+                self._timer.reset()
+            elif not needed:
+                self._timer.cancel()
+
+    @property
+    def _simulated(self):
+        return self.get_clock().ros_time_is_active
+
+    def _watch_now(self):
+        """ns of the clock that watches over input and heartbeat, and paces the timer: steady, or that of the simulation, which may stand still."""
+        return self.get_clock().now().nanoseconds if self._simulated else time.monotonic_ns()
+
+    def _follow_clock(self, jump):
+        """/clock has gone back."""
+        if self._session is None:
+            return
+        self._resets.clock_went_back()
+        self._session.source.restart()
+        if self._rate is not None:
+            self._rate.restart()
 
     # --- services, parameters, diagnostics ---
 
@@ -335,21 +375,33 @@ class MooringNode(LifecycleNode):
         output.force, output.force_rate = values["limits.force"] * to_inside, values["limits.force_rate"] * to_inside
         output.ramp_time = values["ramp_time"]
         output.hold_time = values["ramp_time"] or _HOLD_TIME
+        output.ramp_from = values["ramp_from"]
+        watch = self._session.watch
+        watch.input_age, watch.lost_frames, watch.heartbeat = values["limits.input_age"], values["limits.lost_frames"], values["limits.heartbeat"]
+        watch.input_rate = values["input_rate"]
+        self._arm()
         self._outputs.visual_rate = values["visual_rate"]
         self._outputs.stiffness.rate = values["stiffness_rate"]
 
     def _tick_diagnostics(self):
-        self.publish_diagnostics(self._state_machine.current_state[1])
-        if self._session is not None:
+        lifecycle, now = self._state_machine.current_state[1], time.monotonic()
+        missed = self._rate.missed if self._rate is not None else 0
+        news = fingerprint(self._session, lifecycle, self._problem, missed, self._recorder)
+        if news != self._told or now - self._told_at >= DIAGNOSTICS_PERIOD:
+            self._told = news
+            self.publish_diagnostics(lifecycle)
+        if self._session is not None and now - self._collected >= DIAGNOSTICS_PERIOD:
+            self._collected = now
             gc.collect()
             for name in self._inputs.review():
                 self.get_logger().warning(f"all publishers of {name} are best-effort: listens to it likewise, what is lost on the way is not sent again")
 
     def publish_diagnostics(self, lifecycle):
         """Publish the state now. lifecycle: label of the node's state."""
-        now = time.monotonic()
-        self._diagnostics_publisher.publish(self._diagnostics.array(
-            now, self.get_clock().now().to_msg(), lifecycle, self._session, self._problem, self._timing_values(), self._recorder, self._accuracy(now)))
+        now = self._told_at = time.monotonic()
+        self._reports.diagnostics(self._diagnostics.array(
+            now, self.get_clock().now().to_msg(), lifecycle, self._session, self._problem, self._timing_values(), self._recorder, self._accuracy(now)),
+            self._axis)
 
     def _accuracy(self, now):
         if self._session is None or self._session.wrenches is None:

@@ -1,4 +1,4 @@
-"""What stands between the computed wrench and the platform: ramp-in, hold, and limits on the force and its rate.
+"""What stands between the wrench that is wanted and the platform: ramps, and limits on the force and its rate.
 
 The total and the wrenches at the fairleads are treated alike, so that they keep adding up. Line tensions are results, not
 commands: they go out as computed.
@@ -9,56 +9,51 @@ from collections import Counter
 import numpy as np
 
 FORCE, FORCE_RATE = "force", "force_rate"
+RAMP_FROM = ZERO, STATIC = "zero", "static"
 
 
 class Output:
-    """Turns the computed wrenches into those that go out.
+    """Turns the wrenches that are wanted into those that go out.
 
     force: N, largest norm of the total force; a larger one is scaled down, moments with it. force_rate: N/s, fastest change of the total
-    force; a faster one is followed at that rate. ramp_time: s, the cosine ramp after a start or a settle, from what went out before
-    (nothing at first). hold_time: s, the ramp into the safe state. Zero switches a limit or ramp off. All may be changed at any time.
-
-    The safe state is the static answer of the last settle: a constant force, about the mooring's mean, holds a floater and adds no energy.
-    limited: how often each limit was reached; holding: why the output is held, or "".
+    force; a faster one is followed at that rate. ramp_time: s, the cosine ramp after a start or a settle, from what went out before; at
+    first that is what ramp_from says: nothing (zero), or the static answer. hold_time: s, the ramp into and out of the static answer.
+    Zero switches a limit or ramp off. All may be changed at any time. limited: how often each limit was reached;
+    duration: s, of the ramp that goes on or was the last.
     """
 
-    def __init__(self, force=0.0, force_rate=0.0, ramp_time=0.0, hold_time=1.0):
-        self.force, self.force_rate, self.ramp_time, self.hold_time = force, force_rate, ramp_time, hold_time
+    def __init__(self, force=0.0, force_rate=0.0, ramp_time=0.0, hold_time=1.0, ramp_from=ZERO):
+        self.force, self.force_rate, self.ramp_time, self.hold_time, self.ramp_from = force, force_rate, ramp_time, hold_time, ramp_from
         self.limited = Counter()
-        self.holding = ""
         self._sent = self._sent_at = None
         self._base = self._base_at = None
-        self._ramp = 0.0
-        self._safe = None
+        self.duration = 0.0
 
-    def start(self, time, safe):
-        """Begin at time (s) with the static wrenches `safe` (k, 6), row 0 the total; ends a hold."""
-        self._safe = np.array(safe)
-        self.holding = ""
-        self._begin_ramp(time, self.ramp_time)
+    def start(self, time, static, held=False):
+        """Begin at time (s) with the static wrenches (k, 6), row 0 the total; or begin again, after a hold where held."""
+        duration = self.hold_time if held else self.ramp_time
+        if self._sent is None:
+            duration = self.ramp_time
+            self._sent = np.zeros_like(static) if self.ramp_from == ZERO else np.array(static)
+        self._begin_ramp(time, duration)
 
-    def hold(self, time, why):
-        """Ramp from what goes out now to the safe state and stay there, until `release` or `start`."""
-        if not self.holding:
-            self._begin_ramp(time, self.hold_time)
-        self.holding = why
+    def turn(self, time):
+        """Ramp over hold_time from what goes out now to what is wanted from now on."""
+        self._begin_ramp(time, self.hold_time)
 
-    def release(self, time):
-        """Ramp back from the safe state to the computed wrenches."""
-        if self.holding:
-            self.holding = ""
-            self._begin_ramp(time, self.hold_time)
+    def ramping(self, time):
+        """Whether a ramp goes on at time (s)."""
+        return self._share(time) < 1.0
 
-    def apply(self, time, wrenches):
-        """The wrenches (k, 6) that go out at time (s), for the computed ones, which are handed over: they may be the answer."""
-        target = self._safe if self.holding else wrenches
-        share = self._ramp_share(time)
-        out = target if share >= 1.0 else share * target + (1.0 - share) * self._base
+    def apply(self, time, wanted):
+        """The wrenches (k, 6) that go out at time (s), for the wanted ones, which are handed over: they may be the answer."""
+        share = self._share(time)
+        out = wanted if share >= 1.0 else share * wanted + (1.0 - share) * self._base
         size = _norm(out[0])
         if self.force and size > self.force:
             out = out * (self.force / size)
             self.limited[FORCE] += 1
-        if self.force_rate and self._sent is not None:
+        if self.force_rate and self._sent_at is not None:
             change = out - self._sent
             size, most = _norm(change[0]), self.force_rate * max(time - self._sent_at, 0.0)
             if size > most:
@@ -68,14 +63,15 @@ class Output:
         return out
 
     def _begin_ramp(self, time, duration):
-        self._ramp, self._base_at = duration, time
-        self._base = np.zeros_like(self._safe) if self._sent is None else self._sent
+        if self._sent_at is not None:
+            self._sent_at = min(self._sent_at, time)    # the source's clock may have been set back
+        self.duration, self._base_at, self._base = duration, time, self._sent
 
-    def _ramp_share(self, time):
+    def _share(self, time):
         passed = time - self._base_at
-        if passed >= self._ramp or self._ramp <= 0.0:
+        if passed >= self.duration or self.duration <= 0.0:
             return 1.0
-        return 0.5 - 0.5 * math.cos(math.pi * max(passed, 0.0) / self._ramp)
+        return 0.5 - 0.5 * math.cos(math.pi * max(passed, 0.0) / self.duration)
 
 
 def _norm(wrench):

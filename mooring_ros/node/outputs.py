@@ -83,6 +83,14 @@ class Outputs:
         if data is not None:
             self._send(self._stiffness, data, stamp)
 
+    def repeat(self, stamp, answered, time):
+        """Publish the wrenches at the coupled points where the core stands still, and record them and the total at time (ns)."""
+        wrenches, data = answered
+        if self._recorder is not None:
+            self._record(self._wrench, data, time)
+        for publisher, wrench in zip(self._fairleads, wrenches[1:]):
+            self._send(publisher, self._messages.wrench(stamp, wrench), time)
+
     def record_input(self, topic, type_name, data, log_time, publish_time):
         """Record a message as it was received. Times: ns."""
         if self._recorder is not None:

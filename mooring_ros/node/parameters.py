@@ -10,6 +10,7 @@ from mooring_ros.fidelity import EXPECTED, check
 from mooring_ros.mooring import SOLVERS
 from mooring_ros.motion.frames import CONVENTIONS, TWIST_FRAMES, WRENCH_FRAMES
 from mooring_ros.node.resets import POLICIES
+from mooring_ros.node.output import RAMP_FROM
 from mooring_ros.node.timing import MODES
 
 INPUTS = ("odometry", "pose_twist", "pose")
@@ -57,18 +58,22 @@ TABLE = (
     Entry("density_ratio", 1.0, "Density of the water at full scale over that at model scale.", fixed=True, low=1e-3, high=1e3),
     Entry("timing.mode", "input", "One step for each input message (input), or at a fixed rate against a steady clock (timer).", fixed=True,
           choices=MODES),
-    Entry("timing.rate", 100.0, "Rate of the timer mode (Hz).", fixed=True, low=0.1, high=2000.0),
+    Entry("timing.rate", 100.0, "Rate of the timer mode, and of the wrench in HOLD and SAFE when no input sets the pace (Hz).", fixed=True, low=0.1, high=2000.0),
     Entry("limits.force", 0.0, "Largest force on the platform (N, as published); a larger one is scaled down. 0: no limit."),
     Entry("limits.force_rate", 0.0, "Fastest change of that force (N/s, as published); a faster one is followed at this rate. 0: no limit."),
-    Entry("limits.input_age", 0.0, "Oldest input that is used (s by the node's clock). 0: no limit; timer mode then carries motion on for 0.2 s."),
+    Entry("limits.input_age", 0.0, "Oldest input that is used, and longest silence before HOLD (s by the node's clock). 0: no limit; timer mode then "
+                                   "carries motion on for 0.2 s."),
+    Entry("limits.heartbeat", 0.0, "Longest time without a message on ~/heartbeat before SAFE (s). 0: none is asked for."),
     Entry("limits.jump", 10.0, "Farthest a pose may lie from where the motion led (m, full scale). 0: no limit."),
     Entry("limits.jump_angle", 0.5, "The same in angle (rad). 0: no limit."),
     Entry("limits.jump_speed", 10.0, "Largest change of velocity between samples, and speed at which a pose may leave its motion (m/s, full scale). "
                                      "0: no limit."),
     Entry("limits.jump_rate", 2.0, "The same in angular velocity (rad/s, full scale). 0: no limit."),
     Entry("limits.gap", 60.0, "Longest time between two samples of one motion (s, full scale). 0: no limit."),
-    Entry("limits.lost_frames", 0, "How many inputs in a row that hold no pose (NaN, zero quaternion) are bridged by prediction. 0: none.", high=1000),
-    Entry("ramp_time", 0.0, "Cosine ramp of the wrench after a start or a settle (s). 0: none.", high=1e6),
+    Entry("limits.lost_frames", 0, "How many inputs in a row may hold no pose (NaN, zero quaternion), which are bridged by prediction, or not come at all, before HOLD. "
+                                   "0: none are bridged, any may stay away.", high=1000),
+    Entry("ramp_time", 0.0, "Cosine ramp of the wrench after a start or a settle, and into and out of HOLD and SAFE (s). 0: none, and 1 s.", high=1e6),
+    Entry("ramp_from", "zero", "What the first ramp begins from: nothing (zero), or the static wrench at the first sample (static).", choices=RAMP_FROM),
     Entry("on_reset", "refuse", "When simulated time goes back: wait for ~/settle (refuse), or settle anew at the next sample (settle).", fixed=True,
           choices=POLICIES),
     Entry("stiffness_rate", 1.0, "At most how often ~/stiffness is solved anew for those who listen (Hz, in the time of the input); it is published after each "

@@ -1,43 +1,53 @@
 """One activation of the node without ROS: samples through the gate into the core, the schedule of what was done, and its answers."""
 import math
+import time
 
 import numpy as np
 
 from mooring_ros.mooring import MooringError
 from mooring_ros.motion import rotation
 from mooring_ros.motion.convention_check import WRONG
+from mooring_ros.node.states import ASKED, FAULT, FOUND, HOLD, IDLE, LOST, RAMP, RAMPED, SAFE, SETTLED, States, Watch
 from mooring_ros.node.steps_in import StepsIn
 from mooring_ros.node.timing import WALL_CLOCK, SourceClock
 from mooring_ros.recording import schedule
 
-WAITING, RUNNING, FAILED, REFUSED = "waiting for input", "running", "failed", "refused"
-
-AGE_HOLD = "the input is too old"
-ASKED_HOLD = "asked for"
-# How long the last motion is carried on without a new sample (s of the source's clock) when limits.input_age does not say.
+# How long the last motion is carried on without a new sample (s of the source's clock) when no limit says.
 HORIZON = 0.2
+# Inputs that are answered in HOLD set the pace; after so long without one (ns) the clock does.
+QUIET = 50_000_000
 
 
 class Session:
     """Takes samples, steps the mooring, and holds the wrenches that go out.
 
     mooring: a fresh `Mooring`. gate, output, check: see motion.Gate, node.output.Output, motion.ConventionCheck (None: the source has no twist).
-    state: waiting, running, failed (the core could not complete a step, or settle) or refused (the twist is in another convention); cause: why.
-    unwound: messages with unstretched lengths that were refused. Only `settle` leads out of failed and refused. wrenches: (1 + coupled, 6), row 0 the total, inside, as they go out now.
+    clock: gives ns of a steady clock (of the simulation's, where time is simulated); input and heartbeat are watched by it.
+    states: the state machine; watch: its limits. unanswered: good samples without an answer; unwound: messages with unstretched lengths that
+    were refused. wrenches: (1 + coupled, 6), row 0 the total, inside, as they go out now; shown: when, in ns of the source's clock.
     """
 
-    def __init__(self, mooring, gate, output, check=None):
-        self.mooring, self.gate, self.output, self.check = mooring, gate, output, check
-        self.state, self.cause = WAITING, ""
+    def __init__(self, mooring, gate, output, check=None, clock=time.monotonic_ns):
+        self.mooring, self.gate, self.output, self.check, self.clock = mooring, gate, output, check, clock
+        self.states, self.watch = States(clock()), Watch()
         self.steps = self.settles = self.unanswered = self.unwound = 0
-        self.wrenches = None
-        self.clock = SourceClock()
+        self.wrenches = self.shown = None
+        self.source = SourceClock()
         self.steps_in = StepsIn()
         self._restarts = 0
+        self._anew = True           # the next good sample settles: the first, and the first after a reset of the simulation
+        self._static = None         # (1 + coupled, 6): where HOLD and SAFE go to
+        self._good = None           # the last Motion that the core went to
+        self._heard = None          # ns of the clock, when it did
         self._actions = []
         self._origin = None
         self._stepped = None        # stamp (ns) to which the core has been stepped
         self._unchecked = None
+
+    @property
+    def state(self):
+        """IDLE, RAMP, RUN, HOLD or SAFE."""
+        return self.states.state
 
     # --- mode `input` ---
 
@@ -46,72 +56,96 @@ class Session:
         motion = self._admit(sample, now)
         if motion is None:
             return None
-        if self.state == WAITING:
+        if self._anew:
             return self._settle_at(motion)
-        return self._step(motion.stamp, motion.pose, motion.twist)
+        self._found(motion.stamp)
+        return self._step(motion.stamp, motion, motion.pose)
+
+    def look(self):
+        """Judge by the clock alone. Returns the stamp of the last answer when the wrenches of HOLD and SAFE are to go out again, else None."""
+        now = self.clock()
+        self._judge(now, self.watch.input_lost(self.watch.since_input(now)))
+        if not self.states.held or self.wrenches is None:
+            return None
+        if self.state == HOLD and not self.states.lost and now - self._heard < QUIET:
+            return None
+        self._show(self._time(now))
+        return self._good.stamp
 
     # --- mode `timer` ---
 
-    def observe(self, sample, now, steady):
-        """Note a sample for the next tick; the first settles. Returns its stamp when there is an answer at once, else None. steady: ns."""
+    def observe(self, sample, now):
+        """Note a sample for the next tick; the first settles. Returns its stamp when there is an answer at once, else None. now: receiving clock, ns."""
         motion = self._admit(sample, now)
         if motion is None:
             return None
-        self.clock.hear(motion.stamp, steady)
-        return self._settle_at(motion) if self.state == WAITING else None
+        self.source.hear(motion.stamp, self.clock())
+        return self._settle_at(motion) if self._anew else None
 
-    def tick(self, steady):
-        """Step to the moment steady (ns) with the last motion carried on; returns the stamp of the sample that is answered, or None.
+    def tick(self):
+        """Step to this moment with the last motion carried on; returns the stamp of the sample that is answered, or None.
 
-        The velocity is held. Past the horizon nothing is made up any more: the output is held, and the core waits.
+        The velocity is held. Where the input counts as lost nothing is made up any more: the core waits.
         """
-        motion, shown = self.gate.last, self.clock.now(steady)
-        if motion is None or shown is None or self._stopped():
+        now = self.clock()
+        motion, shown = self.gate.last, self.source.now(now)
+        if self.wrenches is None or motion is None or shown is None:
             return None
         ahead = (shown - motion.stamp) * 1e-9
-        horizon = self.gate.limits.input_age or HORIZON
-        if ahead > horizon:
-            if not self.output.holding:
-                self.output.hold(shown * 1e-9, AGE_HOLD)
-        elif self.output.holding == AGE_HOLD:
-            self.output.release(shown * 1e-9)
-        if ahead > horizon or shown <= self._stepped:
-            self._set_wrenches(shown, self._computed())
+        lost = self.watch.input_lost(ahead, HORIZON)
+        self._judge(now, lost)
+        if lost or self.state == SAFE:
+            self._show(self._time(now))
+            return self._good.stamp
+        self._found(shown)
+        if shown <= self._stepped:
+            self._show(shown, self._computed(self.mooring))
             return motion.stamp
-        pose = carry_on(motion, ahead * self.gate.adapter.time_factor)
-        return self._step(shown, pose, motion.twist, answers=motion.stamp)
+        return self._step(shown, motion, carry_on(motion, ahead * self.gate.adapter.time_factor))
 
-    # --- services ---
+    # --- services, heartbeat ---
 
     def settle(self):
         """Solve the statics anew, at the new place when there is one; returns (success, words)."""
+        heart = self.watch.heart_lost(self.clock())
+        if heart:
+            return False, f"not settled: {heart}"
         relocated = self.gate.relocate()
         motion = relocated or self.gate.last
         if motion is None:
             return False, "no valid input yet; the first one settles"
         if relocated:
-            self.clock.restart()
-            self.steps_in.restart()
+            self._new_stream()
         elif self._stepped is not None:     # the timer mode may have carried the last motion on: time does not go back
             motion = motion._replace(stamp=max(motion.stamp, self._stepped))
-        if self.check is not None and self.state == REFUSED:
+        if self.check is not None and self.check.verdict.kind == WRONG:
             self.check = type(self.check)(self.gate.adapter)
-        if self._settle_at(motion) is None:
-            return False, self.cause
+        if self._settle_at(motion, "~/settle") is None:
+            return False, self.states.cause
         place = ", ".join(f"{x:.3f}" for x in motion.pose[:3])
         return True, f"settled at ({place}) m{', the new place' if relocated else ''}"
 
     def hold(self):
-        """Ramp to the safe state until the next settle; returns (success, words)."""
-        if self.state == WAITING:
+        """Ramp to the static answer until the next settle; returns (success, words)."""
+        if self.state == IDLE:
             return False, "no valid input yet, there is nothing to hold"
-        self.output.hold(self._stepped * 1e-9, ASKED_HOLD)
-        return True, "output ramps to the static wrench of the last settle, and stays there until ~/settle"
+        if self.state == SAFE:
+            return True, f"{SAFE} already, until ~/settle: {self.states.cause}"
+        self._withdraw(ASKED, "~/hold")
+        return True, "output ramps to the static wrench at the last good pose, and stays there until ~/settle"
+
+    def lose(self, cause):
+        """The input is there but of no use any more, for this cause: hold, until a good sample."""
+        self._withdraw(LOST, cause)
+
+    def beat(self):
+        """A heartbeat came."""
+        self.watch.beat(self.clock())
 
     def release(self, line):
         """Let go of the fairlead end of a line; returns (success, words)."""
-        if self.state != RUNNING:
-            return False, f"cannot release {line}: {self.state}"
+        if self.state in (IDLE, SAFE):
+            return False, f"cannot release {line}: {self.state}, {self.states.cause}"
         try:
             self.mooring.release(line)
         except (MooringError, ValueError) as error:
@@ -121,8 +155,8 @@ class Session:
 
     def wind(self, lengths):
         """Give lines new unstretched lengths, dict of name -> m at the source's scale; all or none. Returns (success, words)."""
-        if self.state != RUNNING:
-            return False, f"cannot wind {', '.join(lengths)}: {self.state}"
+        if self.state in (IDLE, SAFE):
+            return False, f"cannot wind {', '.join(lengths)}: {self.state}, {self.states.cause}"
         names, factor = self.mooring.line_names, 1.0 / self.gate.adapter.length_factor
         for name, length in lengths.items():
             if name not in names:
@@ -151,38 +185,85 @@ class Session:
         (motion, sample), self._unchecked = self._unchecked, None
         verdict = self.check.add(motion.stamp, motion.pose, sample.twist, sample.twist_frame)
         if verdict.kind == WRONG:
-            self.state, self.cause = REFUSED, verdict.text
+            self._withdraw(FAULT, verdict.text)
 
     # --- inside ---
 
     def _admit(self, sample, now):
         motion = self.gate.admit(sample, now)
         if motion is None:
+            if self.gate.lost:
+                self.lose(self.gate.cause)
             return None
         if self.gate.restarts != self._restarts:
-            self._begin_anew()
+            self._restarts = self.gate.restarts
+            self._new_stream()
+            self._anew = True
         self.steps_in.add(motion.stamp)
-        if self.check is not None and not self.check.finished:
+        self.watch.hear(self.clock())
+        if self.check is not None and not self.check.finished and not motion.bridged:
             self._unchecked = motion, sample
-        if self._stopped():
+        if self.state == SAFE:
             self.unanswered += 1
             return None
         return motion
 
-    def _begin_anew(self):
-        """After a reset of the simulation: the sample that was admitted settles, but nothing leads out of a fault."""
-        self._restarts = self.gate.restarts
-        self.clock.restart()
-        if not self._stopped():
-            self.state = WAITING
+    def _new_stream(self):
+        """What comes from now on has nothing to do with the stamps and the arrivals before."""
+        self.source.restart()
+        self.steps_in.restart()
+        self.watch.forget()
 
-    def _stopped(self):
-        return self.state in (FAILED, REFUSED)
+    def _judge(self, now, lost):
+        """What the clock alone says: lost, why the input counts as lost, or ""; and the heartbeat."""
+        if self.state == IDLE:
+            return
+        heart = self.watch.heart_lost(now)
+        if heart:
+            self._withdraw(FAULT, heart)
+        elif lost:
+            self._withdraw(LOST, lost)
+
+    def _withdraw(self, event, cause):
+        """Into HOLD or SAFE, where the event leads there."""
+        now, went_out = self.clock(), not self.states.held and self.wrenches is not None
+        if self.states.fire(now, event, cause) and went_out:
+            self._static = self._static_here()
+            self.shown = self._time(now)
+            self.output.turn(self.shown * 1e-9)
+
+    def _static_here(self):
+        """The static wrenches at the last good pose, or, where there are none, those of the last settle."""
+        twin = self.mooring.twin()
+        try:
+            twin.settle(np.array(self._good.pose), time=twin.time)
+            found = self._computed(twin)
+        except (MooringError, ValueError):
+            return self._static
+        return found if math.isfinite(found.sum()) else self._static
+
+    def _found(self, shown):
+        """The input is good again; shown: ns, from where the output goes on."""
+        if self.states.fire(self.clock(), FOUND, "the input is good again"):
+            self.shown = shown
+            self.output.turn(shown * 1e-9)
+
+    def _time(self, now):
+        """The source's clock (ns) at the clock's now, as far as it can be told; never before what has been shown."""
+        time = self.source.now(now)
+        if time is None:
+            time = self._good.stamp + now - self._heard
+        return max(time, self.shown)
 
     def _seconds(self, stamp):
         return (stamp - self._origin) * 1e-9 * self.gate.adapter.time_factor
 
-    def _settle_at(self, motion):
+    def _settle_at(self, motion, cause="the first good sample"):
+        heart = self.watch.heart_lost(self.clock())
+        if heart:
+            self.states.cause = heart
+            self.unanswered += 1
+            return None
         if self._origin is None or motion.stamp < self._stepped:
             # Waves and failures have times of their own: those of a simulation's clock, or of a run by a wall clock.
             self._origin = motion.stamp if motion.stamp >= WALL_CLOCK else 0
@@ -193,46 +274,55 @@ class Session:
         except (MooringError, ValueError) as error:
             return self._fail(f"cannot settle: {error}")
         self._act(motion.stamp, schedule.encode_settle, time, pose)
-        self.state, self.cause = RUNNING, ""
         self.settles += 1
-        computed = self._computed()
-        self.output.start(motion.stamp * 1e-9, computed)
-        self._set_wrenches(motion.stamp, computed)
-        return motion.stamp
+        self._anew = False
+        computed = self._computed(self.mooring)
+        self._static = computed.copy()
+        self.output.start(motion.stamp * 1e-9, computed, self.states.held)
+        self.states.fire(self.clock(), SETTLED, cause)
+        return self._answer(motion.stamp, motion, computed)
 
-    def _step(self, stamp, pose, twist, answers=None):
+    def _step(self, stamp, motion, pose):
+        """Step the core to a stamp, where a motion leads to a pose; returns the stamp that is answered."""
         time = self._seconds(stamp)
         try:
-            self.mooring.step(time, np.array(pose), np.array(twist))
+            self.mooring.step(time, np.array(pose), np.array(motion.twist))
         except (MooringError, ValueError) as error:
             return self._fail(str(error))
-        computed = self._computed()
+        computed = self._computed(self.mooring)
         # The last line of defence: whatever happens inside, nothing that is not a number goes to an actuator.
         if not math.isfinite(computed.sum()):
             return self._fail(f"the step to t = {time:.6g} s gave a wrench that is not finite")
         self.steps += 1
         self._stepped = stamp
-        answers = stamp if answers is None else answers
-        self._act(answers, schedule.encode_step, time, pose, twist)
-        self._set_wrenches(stamp, computed)
-        return answers
+        self._act(motion.stamp, schedule.encode_step, time, pose, motion.twist)
+        return self._answer(stamp, motion, computed)
+
+    def _answer(self, stamp, motion, computed):
+        self._good, self._heard = motion, self.clock()
+        self._show(max(stamp, self.shown) if self.states.held else stamp, computed)
+        return motion.stamp
 
     def _act(self, stamp, encode, *values):
         self._actions.append((stamp, encode, values))
 
     def _fail(self, cause):
-        self.state, self.cause = FAILED, cause
+        self._withdraw(FAULT, cause)
         self.unanswered += 1
         return None
 
-    def _computed(self):
-        coupled = self.mooring.coupled_wrenches
+    def _computed(self, mooring):
+        coupled = mooring.coupled_wrenches
         wrenches = np.empty((1 + len(coupled), 6))
-        wrenches[0], wrenches[1:] = self.mooring.wrench, coupled
+        wrenches[0], wrenches[1:] = mooring.wrench, coupled
         return wrenches
 
-    def _set_wrenches(self, stamp, computed):
-        self.wrenches = self.output.apply(stamp * 1e-9, computed)
+    def _show(self, shown, computed=None):
+        """What goes out at this moment (ns) of the source's clock."""
+        self.shown = shown
+        self.wrenches = self.output.apply(shown * 1e-9, self._static if self.states.held else computed)
+        if self.state == RAMP and not self.output.ramping(shown * 1e-9):
+            self.states.fire(self.clock(), RAMPED, f"after {self.output.duration:g} s")
 
 
 def carry_on(motion, seconds):

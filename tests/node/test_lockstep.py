@@ -159,16 +159,20 @@ def test_settle_without_input_says_so(peer):
     assert not reply.success and "no valid input" in reply.message
 
 
-def test_hold_ramps_to_the_static_wrench_until_settle(peer):
+def test_hold_ramps_to_the_static_wrench_at_the_last_pose_until_settle(peer):
     static = peer.ask(0.0)
     moved = peer.ask(1.0, 1.5, 2.0)
     assert abs(moved[0] - static[0]) > 1e3
     assert peer.call("mooring/hold").success
     peer.diagnostic("core", lambda level, _, message: level == WARN and "held" in message)
-    peer.ask(1.5, 2.5, 2.0)
-    np.testing.assert_array_equal(peer.ask(2.1, 3.7, 2.0), static)
+    mooring = Mooring(SCENE)
+    mooring.settle(pose(1.5))
+    for k in range(5):
+        peer.ask(1.5 + k, 2.5 + 2.0 * k, 2.0)
+    np.testing.assert_allclose(peer.ask(6.5, 12.5, 2.0), mooring.wrench, rtol=1e-6, atol=1.0)
     assert peer.call("mooring/settle").success
-    assert abs(peer.ask(2.2, 3.9, 2.0)[0] - static[0]) > 1e3
+    peer.ask(6.6, 12.7, 2.0)
+    assert abs(peer.ask(8.0, 15.5, 2.0)[0] - static[0]) > 1e3
 
 
 def test_a_released_line_pulls_no_more(peer):
@@ -202,16 +206,17 @@ def test_a_twist_in_world_axes_is_found_out_when_child_was_said(peer):
     peer.diagnostic("core", lambda level, *_: level == ERROR)
 
 
-def test_a_step_that_cannot_be_done_gives_no_wrench_until_settled_again(peer):
+def test_a_step_that_cannot_be_done_gives_no_input_a_wrench_until_settled_again(peer):
     for name in ("jump", "jump_speed", "jump_angle", "jump_rate", "gap"):
         assert peer.set(f"limits.{name}", 0.0).successful
-    peer.ask(0.0)
+    static = peer.ask(0.0)
     peer.send(0.001, x=1e300)
     _, _, message = peer.diagnostic("core", lambda level, *_: level == ERROR)
     assert "~/settle" in message
     peer.send(0.01)
     peer.send(0.02)
-    peer.spin(0.3)
-    assert len(peer.wrenches) == 1
+    peer.spin(1.3)
+    assert {stamp_of(m) for m in peer.wrenches} == {0}
+    np.testing.assert_allclose(numbers(peer.wrenches[-1]), static, rtol=1e-6, atol=1.0)
     assert peer.call("mooring/settle").success
     assert np.isfinite(peer.ask(0.03)).all()

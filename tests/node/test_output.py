@@ -1,8 +1,8 @@
-"""Ramp, hold and limits on what goes out."""
+"""Ramps and limits on what goes out."""
 import numpy as np
 import pytest
 
-from mooring_ros.node.output import FORCE, FORCE_RATE, Output
+from mooring_ros.node.output import FORCE, FORCE_RATE, STATIC, Output
 
 SAFE = np.array([[100.0, 0, 0, 0, 10.0, 0], [100.0, 0, 0, 0, 0, 0]])
 
@@ -43,18 +43,16 @@ def test_a_fast_change_is_followed_at_the_given_rate():
     assert output.limited == {FORCE_RATE: 1}
 
 
-def test_hold_ramps_to_the_static_wrench_and_stays_until_released():
+def test_a_turn_ramps_over_the_hold_time_from_what_goes_out_and_back():
     output = started(hold_time=2.0)
     output.apply(0.0, 3.0 * SAFE)
-    output.hold(0.0, "asked for")
-    np.testing.assert_allclose(output.apply(1.0, 9.0 * SAFE), 2.0 * SAFE)
-    np.testing.assert_allclose(output.apply(2.0, 9.0 * SAFE), SAFE)
-    output.hold(2.5, "asked again")
-    np.testing.assert_allclose(output.apply(3.0, 9.0 * SAFE), SAFE)
-    output.release(3.0)
+    output.turn(0.0)
+    np.testing.assert_allclose(output.apply(1.0, SAFE), 2.0 * SAFE)
+    assert output.ramping(1.9) and not output.ramping(2.0)
+    np.testing.assert_allclose(output.apply(2.0, SAFE), SAFE)
+    output.turn(3.0)
     np.testing.assert_allclose(output.apply(4.0, 9.0 * SAFE), 5.0 * SAFE)
     np.testing.assert_allclose(output.apply(5.0, 9.0 * SAFE), 9.0 * SAFE)
-    assert output.holding == ""
 
 
 def test_settling_again_ramps_from_what_went_out_before():
@@ -62,3 +60,23 @@ def test_settling_again_ramps_from_what_went_out_before():
     output.apply(5.0, 4.0 * SAFE)
     output.start(6.0, 2.0 * SAFE)
     np.testing.assert_allclose(output.apply(7.0, 2.0 * SAFE), 3.0 * SAFE)
+
+
+def test_the_first_ramp_can_begin_from_the_static_wrench():
+    output = started(ramp_time=2.0, ramp_from=STATIC)
+    np.testing.assert_allclose(output.apply(0.0, 3.0 * SAFE), SAFE)
+    np.testing.assert_allclose(output.apply(1.0, 3.0 * SAFE), 2.0 * SAFE)
+
+
+def test_after_a_hold_the_ramp_takes_the_hold_time_where_a_start_takes_none():
+    output = started(hold_time=2.0)
+    output.apply(0.0, 3.0 * SAFE)
+    output.start(1.0, SAFE, held=True)
+    np.testing.assert_allclose(output.apply(2.0, SAFE), 2.0 * SAFE)
+
+
+def test_a_clock_that_is_set_back_does_not_freeze_a_limited_rate():
+    output = started(force_rate=20.0)
+    output.apply(1000.0, SAFE)
+    output.start(0.0, SAFE)
+    np.testing.assert_allclose(output.apply(1.0, 2.0 * SAFE), 1.2 * SAFE)

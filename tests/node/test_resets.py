@@ -7,7 +7,8 @@ from mooring_ros.mooring import Mooring
 from mooring_ros.motion import Adapter, Gate, Sample
 from mooring_ros.node.output import Output
 from mooring_ros.node.resets import REFUSE, SETTLE, Resets
-from mooring_ros.node.session import FAILED, RUNNING, Session
+from mooring_ros.node.session import Session
+from mooring_ros.node.states import RUN, SAFE
 from mooring_ros.node.steps_in import StepsIn
 
 MS = 1_000_000
@@ -31,7 +32,7 @@ def begun(policy, begin=5000, steps=4):
 def test_time_back_to_before_the_start_settles_anew_at_the_first_sample():
     made = begun(SETTLE)
     assert made.take(sample(0, 30.0), None) == 0
-    assert made.state == RUNNING and made.settles == 2 and made.mooring.time == 0.0
+    assert made.state == RUN and made.settles == 2 and made.mooring.time == 0.0
     fresh = Mooring(SCENE)
     fresh.settle(np.array([30.0, 0.0, 0.0, *UPRIGHT]))
     np.testing.assert_array_equal(made.wrenches[0], fresh.wrench)
@@ -70,7 +71,7 @@ def test_refused_the_way_out_is_one_settle_after_one_sample():
 def test_a_reset_leads_out_of_no_fault():
     made = begun(SETTLE)
     made._fail("for the test")
-    assert made.take(sample(0), None) is None and made.state == FAILED
+    assert made.take(sample(0), None) is None and made.state == SAFE
 
 
 def counted(stamps, nominal=0.0):
