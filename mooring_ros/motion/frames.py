@@ -157,3 +157,10 @@ def twist_axes(twist_frame_id, pose_frame_id, platform_frame, default):
     if twist_frame_id and twist_frame_id == platform_frame:
         return "child"
     return default
+
+
+def scale_in_words(scale, density_ratio):
+    """At which scale motion goes in and forces come out."""
+    if scale == 1.0 and density_ratio == 1.0:
+        return "full scale"
+    return f"model scale 1:{scale:.10g}, density of the water at full scale over that of the model {density_ratio:.10g}"

@@ -5,6 +5,8 @@ Forces go out as computed: a live run's ramps, limits and holds (node/output.py)
 
 import os
 
+from mooring_ros.motion.frames import scale_in_words
+
 from .arguments import add_model_arguments, load_mooring, positive
 from .console import UsageError, complain, print_json, reading
 from .files import check_output, same_file
@@ -22,9 +24,10 @@ DEFAULTS = {
     "wrench_frame": "world",
     "scale": 1.0,
     "density_ratio": 1.0,
+    "full_scale": False,
 }
 MODEL = ("fidelity", "solver", "dt", "segments", "refine")
-AXES_AND_SCALE = ("input", "convention", "twist_frame", "wrench_frame", "scale", "density_ratio")
+AXES_AND_SCALE = ("input", "convention", "twist_frame", "wrench_frame", "scale", "density_ratio", "full_scale")
 
 
 def add_arguments(parser):
@@ -84,6 +87,7 @@ def run(args):
         "settings": {name: settings[name] or None for name in MODEL},
         "identical": {"same": done.identical.same, "total": done.identical.total} if done.identical else None,
         "scene_is_recorded": scene_is_recorded,
+        "scale": {name: settings[name] for name in ("scale", "density_ratio")},
         "accuracy": accuracy and accuracy.as_dict(),
     }
     print_json(found) if args.json else print(_text(found))
@@ -137,6 +141,8 @@ def _text(found):
         f"{found['output']}: {found['answers']} answers to {found['motion']}, {found['simulated']:.6g} s"
         f" in {found['elapsed']:.3g} s ({found['real_time_factor']:.3g} times real time once it runs)"
     ]
+    if found["scale"] != {"scale": 1.0, "density_ratio": 1.0}:
+        text.append(f"at {scale_in_words(**found['scale'])}, as recorded: forces, moments, lengths and times alike")
     if found["csv"]:
         text.append(f"{found['csv']}: the same as a table")
     if found["identical"]:

@@ -78,8 +78,8 @@ class CsvOutput:
 class McapOutput:
     """A recording with the node's topics, that itself replays bit for bit. It appears under its name when it is closed."""
 
-    def __init__(self, path, parameters, scene, coupled_names):
-        """parameters: dict as the node's; scene: the Scene, kept in the recording."""
+    def __init__(self, path, parameters, scene, coupled_names, full_scale=None):
+        """parameters: dict as the node's; scene: the Scene, kept in the recording; full_scale: a node.full_scale.FullScale, or None."""
         self._path = Path(path)
         self._part = self._path.with_suffix(".part.mcap")
         with reading(path):
@@ -87,6 +87,7 @@ class McapOutput:
             self._writer = RecordingWriter(self._part, parameters, AttachedScene(os.path.basename(scene.path), scene.text, scene.files))
         self._coupled_topics = [messages.fairlead_topic(NODE, name) for name in coupled_names]
         self._motion, self._step = _MotionTemplate(WORLD_FRAME, PLATFORM_FRAME), _step_template()
+        self._full_scale = full_scale
         self._sent = 0
 
     def write(self, answer, sample, composed):
@@ -97,6 +98,10 @@ class McapOutput:
             self._put(topic, messages.WRENCH, composed.wrench(stamp, wrench), stamp)
         self._put(f"{NODE}/lines", messages.JOINT_STATE, composed.lines(stamp, sample), stamp)
         self._put(f"{NODE}/line_tensions", messages.FLOAT_ARRAY, composed.line_tensions(sample), stamp)
+        if self._full_scale is not None:
+            for name, type_name, data in (*self._full_scale.wrenches(stamp, np.vstack((answer.wrench, answer.coupled_wrenches))),
+                                          *self._full_scale.lines(stamp, sample)):
+                self._put(f"{NODE}/{name}", type_name, data, stamp)
         self._wait_for_the_disk()
 
     def write_step(self, stamp, record):

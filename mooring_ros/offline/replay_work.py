@@ -6,6 +6,7 @@ import numpy as np
 
 from mooring_ros.mooring import MooringError
 from mooring_ros.motion import Adapter
+from mooring_ros.node.full_scale import FullScale
 from mooring_ros.node.messages import Messages
 from mooring_ros.recording import schedule
 from mooring_ros.recording.reader import Recording
@@ -42,7 +43,9 @@ def replay(args, mooring, motion, settings, watched=None):
     """
     adapter = Adapter(**{name: settings[name] for name in ("twist_frame", "convention", "wrench_frame", "scale", "density_ratio")})
     world, platform = settings.get("world_frame") or WORLD_FRAME, settings.get("platform_frame") or PLATFORM_FRAME
-    composed = Messages(mooring, adapter, world if adapter.wrench_frame == "world" else platform, world)
+    frames = world if adapter.wrench_frame == "world" else platform, world
+    composed = Messages(mooring, adapter, *frames)
+    full_scale = FullScale(mooring, adapter, *frames) if settings["full_scale"] else None
     identical = inputs = None
     if motion.schedule is not None:
         recording = Recording(motion.path)
@@ -53,7 +56,7 @@ def replay(args, mooring, motion, settings, watched=None):
     else:
         steps = run_motion(mooring, *_samples(args, motion))
     answers, pace = 0, Pace()
-    with Stop() as stop, Outputs(args, mooring, settings) as outputs, Progress("replay", float(np.ptp(motion.times))) as progress:
+    with Stop() as stop, Outputs(args, mooring, settings, full_scale) as outputs, Progress("replay", float(np.ptp(motion.times))) as progress:
         try:
             for done in steps:
                 outputs.write_inputs(inputs, done)
@@ -80,8 +83,8 @@ def replay(args, mooring, motion, settings, watched=None):
 class Outputs:
     """The files of a replay; leaving the context closes them, whatever happened."""
 
-    def __init__(self, args, mooring, settings):
-        self._mcap = McapOutput(args.output, settings, mooring.scene, mooring.coupled_names)
+    def __init__(self, args, mooring, settings, full_scale):
+        self._mcap = McapOutput(args.output, settings, mooring.scene, mooring.coupled_names, full_scale)
         try:
             self._csv = CsvOutput(args.csv, mooring.line_names) if args.csv else None
         except UsageError:

@@ -9,6 +9,8 @@ from importlib.metadata import PackageNotFoundError, version
 from mcap.well_known import MessageEncoding, Profile, SchemaEncoding
 from mcap.writer import CompressionType, Writer
 
+from mooring_ros.motion.frames import scale_in_words
+
 from . import bag_metadata, naming
 from .attached import attachments
 from .errors import RecordingError
@@ -17,6 +19,7 @@ from .schema import schema_text
 from .sink import Sink
 
 METADATA_NAME = 'mooring_ros'       # the MCAP Metadata record with the parameters, each value as JSON
+SCALE_NAME = 'mooring_ros_scale'    # another one, which says in words at which scale the messages are
 COMPRESSIONS = {'zstd': CompressionType.ZSTD, 'lz4': CompressionType.LZ4, 'none': CompressionType.NONE}
 MESSAGE_OVERHEAD = 200              # bytes that a queued message takes beside its data
 POLL = 0.02                         # s, how often the thread looks at its queue
@@ -37,7 +40,7 @@ class RecordingWriter:
 
     path: `NAME.mcap`, or a folder name for a bag folder (`NAME/NAME_0.mcap` and `metadata.yaml`). An existing recording
         is never touched: `NAME_2`, `NAME_3`, ... is used instead; `self.path` says which.
-    parameters: dict of name -> value (numbers, strings, booleans, lists), kept as an MCAP Metadata record.
+    parameters: dict of name -> value (numbers, strings, booleans, lists), kept as an MCAP Metadata record; `scale` and `density_ratio` in words as another.
     scene: an AttachedScene, or None.
     chunk_size: bytes of a full chunk. flush_period: s, after which a chunk goes to the operating system in any case.
     queue_limit_bytes: what may wait for the disk; more than that is lost, and counted.
@@ -53,7 +56,10 @@ class RecordingWriter:
                  queue_limit_bytes=64 * 1024 * 1024, flush_period=0.2):
         if compression not in COMPRESSIONS:
             raise RecordingError(f'compression {compression!r}: expected one of {", ".join(COMPRESSIONS)}')
-        metadata = {str(key): json.dumps(value, default=_plain) for key, value in parameters.items()}
+        metadata = {METADATA_NAME: {str(key): json.dumps(value, default=_plain) for key, value in parameters.items()}}
+        if 'scale' in parameters:
+            metadata[SCALE_NAME] = {'messages': scale_in_words(parameters['scale'], parameters.get('density_ratio', 1.0)),
+                                    'steps of the core, topics below full_scale/': 'full scale'}
         descriptor, self.file, self._folder = naming.create(path)
         self.path = self._folder or self.file
         self.error = None
@@ -87,7 +93,8 @@ class RecordingWriter:
         now = time.time_ns()
         try:
             self._mcap.start(profile=Profile.ROS2, library=library_name())
-            self._mcap.add_metadata(METADATA_NAME, metadata)
+            for name, values in metadata.items():
+                self._mcap.add_metadata(name, values)
             for name, media_type, data in attached:
                 self._mcap.add_attachment(create_time=now, log_time=now, name=name, media_type=media_type, data=data)
             self._sink.commit()
