@@ -130,7 +130,7 @@ def test_a_scene_is_read_by_moordyn_itself(path, tmp_path, monkeypatch):
             other = moordyn.GetLine(system, line.id)
             assert moordyn.GetLineUnstretchedLength(other) == line.length
             assert moordyn.GetLineN(other) == line.segments
-        freedoms = 3 * sum(point.kind == "coupled" for point in scene.points) + 6 * sum(rod.kind == "coupled" for rod in scene.rods)
+        freedoms = 3 * sum(point.kind == "coupled" for point in scene.points) + 6 * sum(part.kind == "coupled" for part in (*scene.rods, *scene.bodies))
         assert moordyn.NCoupledDOF(system) == freedoms
     finally:
         moordyn.Close(system)
