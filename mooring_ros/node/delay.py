@@ -2,8 +2,12 @@
 
 A mooring that answers τ late takes ω τ / 2 of critical damping from a platform that swings at ω with the mooring as its spring.
 """
+import array
 import math
 from collections import deque
+
+from rclpy.serialization import serialize_message
+from std_msgs.msg import Float64MultiArray, MultiArrayDimension
 
 MODES = ("off", "given", "measured")
 TOPIC = "~/delay"
@@ -18,8 +22,8 @@ _SLEW = 0.1             # s a second, by which the prediction may change: the co
 class Delay:
     """Delays of the answers, by the source's clock, and the lead that makes up for them.
 
-    mode: one of MODES; seconds: the lead of `given`; what is added in `measured`, for the part of the way that the node cannot see. Both may be
-    changed at any time. by_stamps: whether the stamps are of the node's clock; where not, the delay is counted from when the input arrived.
+    mode: one of MODES. seconds: in the mode `given` the whole delay; else that on the part of the way that the node cannot see, before the stamp and after
+    the wrench. Both may be changed at any time. by_stamps: whether the stamps are of the node's clock; where not, the delay is counted from when the input arrived.
     """
 
     def __init__(self, mode="off", seconds=0.0):
@@ -52,6 +56,11 @@ class Delay:
         return round(self.lead * 1e9)
 
     @property
+    def counted(self):
+        """Whether there has been an answer to count."""
+        return bool(self._delays)
+
+    @property
     def percentile(self):
         """The 99th percentile (s) of the last delays; 0 when there are none."""
         ordered = sorted(self._delays)
@@ -59,8 +68,27 @@ class Delay:
 
     def report(self, frequency):
         """Numbers of FIELDS; frequency: rad/s, or None."""
-        omega, late = frequency or 0.0, self.mean + (self.seconds if self.mode == "measured" else 0.0)
+        omega, late = frequency or 0.0, max(self.mean, self.seconds) if self.mode == "given" else self.mean + self.seconds
         return [self.mean, self.percentile, self.lead, omega, -0.5 * omega * late, -0.5 * omega * (late - self.lead)]
+
+
+    def status(self, frequency):
+        """For diagnostics: whether a person should look, words, name -> value; frequency: rad/s, or None."""
+        numbers = self.report(frequency)
+        values = {name: f"{number:.6g}" for name, number in zip(FIELDS, numbers)} | {"compensate": self.mode, "counted from": "the stamp" if self.by_stamps else "the arrival"}
+        words = f"{1e3 * self.mean:.2f} ms" + (f", {1e3 * self.lead:.2f} ms predicted" if self.lead else "")
+        if frequency:
+            words += f": {100.0 * numbers[-1]:+.2g} % of critical damping at {0.5 * frequency / math.pi:.3g} Hz"
+        if not self.by_stamps:
+            words += ", from the arrival: the stamps are of another clock than the node's"
+        return not self.by_stamps and self.mode == "measured", words, values
+
+
+def message(numbers):
+    """Bytes of a Float64MultiArray with numbers of FIELDS."""
+    made = Float64MultiArray(data=array.array("d", numbers))
+    made.layout.dim = [MultiArrayDimension(label=", ".join(FIELDS), size=len(FIELDS), stride=len(FIELDS))]
+    return serialize_message(made)
 
 
 class Frequency:

@@ -19,11 +19,12 @@ class Diagnostics:
         self._grown = {}
         self._session = None
 
-    def array(self, now, stamp, lifecycle, session=None, problem="", timing=None, recorder=None, accuracy=None):
+    def array(self, now, stamp, lifecycle, session=None, problem="", timing=None, recorder=None, accuracy=None, delay=None):
         """The DiagnosticArray of this moment.
 
         lifecycle: label of the node's state. session: of the activation, or None. problem: why the node could not be configured, or "".
-        timing: name -> value, with "missed" counted; recorder: the RecordingWriter, or None; accuracy: (words, name -> value), or None.
+        timing: name -> value, with "missed" counted; recorder: the RecordingWriter, or None; accuracy: (words, name -> value), or None; delay: (whether it
+        matters, words, name -> value), or None.
         """
         if session is not self._session:
             self._session = session
@@ -31,7 +32,7 @@ class Diagnostics:
         message = DiagnosticArray()
         message.header.stamp = stamp
         message.status = [self._state(now, session), self._input(now, session), self._core(now, session, lifecycle, problem), self._timing(now, timing or {}),
-                          self._accuracy(accuracy), self._recording(recorder)]
+                          self._delay(delay), self._accuracy(accuracy), self._recording(recorder)]
         return message
 
     def _state(self, now, session):
@@ -47,7 +48,7 @@ class Diagnostics:
         gate, rejected = session.gate, sum(session.gate.rejected.values())
         values = {"received": gate.received, "accepted": gate.accepted, "rejected": rejected,
                   **{reason: gate.rejected[reason] for reason in REASONS}, "last rejection": gate.cause,
-                  **self._steps_in(session), "world frame": gate.frame, "platform frame": gate.child_frame}
+                  **self._steps_in(session), **self._frames(gate), "world frame": gate.frame, "platform frame": gate.child_frame}
         fresh_rejection = self._grew("rejected", rejected, now)
         fresh_input = self._grew("accepted", gate.accepted, now)
         level, words = OK, f"{gate.accepted} samples"
@@ -69,6 +70,12 @@ class Diagnostics:
         if session.check is not None and session.check.verdict.kind == WRONG:
             level, words = ERROR, session.check.verdict.text
         return self._status("input", level, words, values)
+
+    @staticmethod
+    def _frames(gate):
+        """What becomes of the frames of a camera system."""
+        values = {"bridged": gate.bridged}
+        return values if gate.frame_clock is None else {**values, "late frames": gate.frame_clock.late, "frames that never came": gate.frame_clock.skipped}
 
     @staticmethod
     def _steps_in(session):
@@ -102,6 +109,10 @@ class Diagnostics:
         missed = timing.get("missed", 0)
         late = self._grew("missed", missed, now)
         return self._status("timing", WARN if late else OK, f"{missed} cycles missed" if missed else "in time", timing)
+
+    def _delay(self, delay):
+        matters, words, values = delay or (False, "not active", {})
+        return self._status("delay", WARN if matters else OK, words, values)
 
     def _accuracy(self, accuracy):
         words, values = accuracy or ("not active", {})

@@ -67,6 +67,7 @@ class MooringNode(LifecycleNode):
         self._axis = None           # ns: where the recording stands
         self._problem = ""
         self._refused = self._restarts = 0
+        self._frequency = 0.0       # rad/s of the source's clock, where it is given
         self._durations, self._pace = Durations(), Pace()
         parameters.declare(self, lambda: self._mooring is not None)
         self.add_post_set_parameters_callback(lambda _: self._apply_live_parameters())
@@ -162,7 +163,7 @@ class MooringNode(LifecycleNode):
             self.get_logger().warning(warning)
         self._mooring, self._adapter, self._settings = mooring, adapter, settings
         self._recorder = self._reports.recorder = self._open_recording(values, scene)
-        self._outputs = Outputs(self, mooring, adapter, self._recorder, values["visual_rate"])
+        self._outputs = Outputs(self, mooring, adapter, self._recorder, values["visual_rate"], values["full_scale"])
         self._make_services(mooring.line_names)
         self.get_logger().info(f"configured: {values['scene']}, {len(mooring.line_names)} lines, {values['fidelity']}")
 
@@ -285,6 +286,8 @@ class MooringNode(LifecycleNode):
         outputs.use_frames(gate.frame, gate.child_frame)
         answered = outputs.answer(stamp, self._session)
         took = time.perf_counter_ns() - begin
+        if self._session.aimed is not None:
+            self._session.delay.add(self._session.aimed, self.get_clock().now().nanoseconds, took)
         self._durations.add(took)
         self._pace.add(self._mooring.time, took, self._mooring.last_step)
         outputs.follow(stamp, answered)
@@ -379,6 +382,8 @@ class MooringNode(LifecycleNode):
         watch = self._session.watch
         watch.input_age, watch.lost_frames, watch.heartbeat = values["limits.input_age"], values["limits.lost_frames"], values["limits.heartbeat"]
         watch.input_rate = values["input_rate"]
+        delay = self._session.delay
+        delay.mode, delay.seconds, self._frequency = values["delay.compensate"], values["delay.seconds"], 2.0 * np.pi * values["delay.frequency"]
         self._arm()
         self._outputs.visual_rate = values["visual_rate"]
         self._outputs.stiffness.rate = values["stiffness_rate"]
@@ -393,6 +398,8 @@ class MooringNode(LifecycleNode):
         if self._session is not None and now - self._collected >= DIAGNOSTICS_PERIOD:
             self._collected = now
             gc.collect()
+            if self._session.delay.counted and self._axis is not None:
+                self._outputs.tell_delay(self._session.delay.report(self._omega()), self._axis)
             for name in self._inputs.review():
                 self.get_logger().warning(f"all publishers of {name} are best-effort: listens to it likewise, what is lost on the way is not sent again")
 
@@ -400,8 +407,15 @@ class MooringNode(LifecycleNode):
         """Publish the state now. lifecycle: label of the node's state."""
         now = self._told_at = time.monotonic()
         self._reports.diagnostics(self._diagnostics.array(
-            now, self.get_clock().now().to_msg(), lifecycle, self._session, self._problem, self._timing_values(), self._recorder, self._accuracy(now)),
-            self._axis)
+            now, self.get_clock().now().to_msg(), lifecycle, self._session, self._problem, self._timing_values(), self._recorder, self._accuracy(now),
+            self._delay()), self._axis)
+
+    def _omega(self):
+        """Frequency of the platform in rad/s of the source's clock, or None."""
+        return self._frequency or (self._session.frequency.value or 0.0) * self._adapter.time_factor or None
+
+    def _delay(self):
+        return None if self._session is None or not self._session.delay.counted else self._session.delay.status(self._omega())
 
     def _accuracy(self, now):
         if self._session is None or self._session.wrenches is None:

@@ -7,6 +7,9 @@ from std_msgs.msg import Float64MultiArray
 from visualization_msgs.msg import MarkerArray
 
 from mooring_ros.node import messages
+from mooring_ros.node.full_scale import FullScale
+from mooring_ros.node.delay import TOPIC as DELAY_TOPIC
+from mooring_ros.node.delay import message as delay_message
 from mooring_ros.node.markers import MARKER_ARRAY, Markers
 from mooring_ros.node.stiffness import Stiffness
 from mooring_ros.node.template import Template, placeholder
@@ -14,6 +17,7 @@ from mooring_ros.recording import schedule
 from mooring_ros.recording.qos import Qos
 
 _DEPTH = 50
+_TYPES = {messages.WRENCH: WrenchStamped, messages.JOINT_STATE: JointState, messages.FLOAT_ARRAY: Float64MultiArray}
 _LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
@@ -21,10 +25,10 @@ class Outputs:
     """Serializes each answer once; the same bytes are published and recorded.
 
     node: creates the publishers. mooring: for names and shapes. adapter: see motion.Adapter. recorder: RecordingWriter or None.
-    visual_rate: Hz in the time of the input, may be changed; 0 is never.
+    visual_rate: Hz in the time of the input, may be changed; 0 is never. full_scale: whether ~/full_scale/… is published beside the rest.
     """
 
-    def __init__(self, node, mooring, adapter, recorder, visual_rate):
+    def __init__(self, node, mooring, adapter, recorder, visual_rate, full_scale=False):
         self._node, self._mooring, self._adapter, self._recorder = node, mooring, adapter, recorder
         self.visual_rate = visual_rate
         self._shown = None
@@ -38,6 +42,9 @@ class Outputs:
         self._markers = self._publisher(MarkerArray, MARKER_ARRAY, "~/markers")
         self.stiffness = Stiffness(mooring, adapter, 0.0)
         self._stiffness = self._publisher(Float64MultiArray, messages.FLOAT_ARRAY, "~/stiffness", _LATCHED)
+        self._delay = self._publisher(Float64MultiArray, messages.FLOAT_ARRAY, DELAY_TOPIC)
+        self._full_scale = FullScale(mooring, adapter) if full_scale else None
+        self._full = {name: self._publisher(_TYPES[type_name], type_name, f"~/{name}") for name, type_name in self._full_scale.topics.items()} if full_scale else {}
         slot = placeholder(schedule.LENGTH)
         self._schedule = Template(Float64MultiArray(data=messages.floats(slot)), [slot])
         self._steps_topic = node.get_fully_qualified_name() + schedule.TOPIC_SUFFIX
@@ -53,6 +60,8 @@ class Outputs:
         wrench_frame = world if self._adapter.wrench_frame == "world" else platform_frame or "platform"
         self._messages = messages.Messages(self._mooring, self._adapter, wrench_frame, world)
         self._marker_messages = Markers(self._mooring, self._adapter, world)
+        if self._full_scale is not None:
+            self._full_scale = FullScale(self._mooring, self._adapter, wrench_frame, world)
 
     def answer(self, stamp, session):
         """Publish the total wrench; returns what `follow` needs to go on."""
@@ -70,6 +79,9 @@ class Outputs:
             self._send(publisher, self._messages.wrench(stamp, wrench), stamp)
         self._send(self._lines, self._messages.lines(stamp, self._mooring), stamp)
         self._send(self._line_tensions, self._messages.line_tensions(self._mooring), stamp)
+        if self._full_scale is not None:
+            for name, _, data in (*self._full_scale.wrenches(stamp, wrenches), *self._full_scale.lines(stamp, self._mooring)):
+                self._send(self._full[name], data, stamp)
         if self._due(stamp):
             if self._wanted(self._nodes):
                 self._send(self._nodes, self._messages.nodes(stamp, self._mooring), stamp)
@@ -90,6 +102,13 @@ class Outputs:
             self._record(self._wrench, data, time)
         for publisher, wrench in zip(self._fairleads, wrenches[1:]):
             self._send(publisher, self._messages.wrench(stamp, wrench), time)
+        if self._full_scale is not None:
+            for name, _, data in self._full_scale.wrenches(stamp, wrenches):
+                self._send(self._full[name], data, time)
+
+    def tell_delay(self, numbers, time):
+        """Publish numbers of delay.FIELDS, and record them at time (ns)."""
+        self._send(self._delay, delay_message(numbers), time)
 
     def record_input(self, topic, type_name, data, log_time, publish_time):
         """Record a message as it was received. Times: ns."""

@@ -11,6 +11,7 @@ from mooring_ros.mooring import SOLVERS
 from mooring_ros.motion.frames import CONVENTIONS, TWIST_FRAMES, WRENCH_FRAMES
 from mooring_ros.node.resets import POLICIES
 from mooring_ros.node.output import RAMP_FROM
+from mooring_ros.node.delay import MODES as DELAY_MODES
 from mooring_ros.node.timing import MODES
 
 INPUTS = ("odometry", "pose_twist", "pose")
@@ -56,9 +57,15 @@ TABLE = (
     Entry("scale", 1.0, "Froude length scale: full scale over model scale of the platform that moves; the scene is at full scale.", fixed=True,
           low=_TINY, high=1e6),
     Entry("density_ratio", 1.0, "Density of the water at full scale over that at model scale.", fixed=True, low=1e-3, high=1e3),
+    Entry("full_scale", False, "Publish the answers a second time at the scale of the scene, on ~/full_scale/wrench, fairleads, lines, line_tensions.", fixed=True),
     Entry("timing.mode", "input", "One step for each input message (input), or at a fixed rate against a steady clock (timer).", fixed=True,
           choices=MODES),
     Entry("timing.rate", 100.0, "Rate of the timer mode, and of the wrench in HOLD and SAFE when no input sets the pace (Hz).", fixed=True, low=0.1, high=2000.0),
+    Entry("delay.compensate", "off", "Predict the motion by the delay of the answer: not (off), by delay.seconds (given), or by the measured mean plus "
+                                     "delay.seconds (measured).", choices=DELAY_MODES),
+    Entry("delay.seconds", 0.0, "Delay by the source's clock (s) that is given, or that lies outside of the node: before the stamp, and after the wrench.", high=1.0),
+    Entry("delay.frequency", 0.0, "Natural frequency of the moored platform by the source's clock (Hz), at which ~/delay tells the loss of damping. 0: from the motion.",
+          high=1e3),
     Entry("limits.force", 0.0, "Largest force on the platform (N, as published); a larger one is scaled down. 0: no limit."),
     Entry("limits.force_rate", 0.0, "Fastest change of that force (N/s, as published); a faster one is followed at this rate. 0: no limit."),
     Entry("limits.input_age", 0.0, "Oldest input that is used, and longest silence before HOLD (s by the node's clock). 0: no limit; timer mode then "

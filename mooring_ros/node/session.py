@@ -5,8 +5,9 @@ import time
 import numpy as np
 
 from mooring_ros.mooring import MooringError
-from mooring_ros.motion import rotation
+from mooring_ros.motion import carry_on
 from mooring_ros.motion.convention_check import WRONG
+from mooring_ros.node.delay import Delay, Frequency
 from mooring_ros.node.states import ASKED, FAULT, FOUND, HOLD, IDLE, LOST, RAMP, RAMPED, SAFE, SETTLED, States, Watch
 from mooring_ros.node.steps_in import StepsIn
 from mooring_ros.node.timing import WALL_CLOCK, SourceClock
@@ -24,7 +25,8 @@ class Session:
     mooring: a fresh `Mooring`. gate, output, check: see motion.Gate, node.output.Output, motion.ConventionCheck (None: the source has no twist).
     clock: gives ns of a steady clock (of the simulation's, where time is simulated); input and heartbeat are watched by it.
     states: the state machine; watch: its limits. unanswered: good samples without an answer; unwound: messages with unstretched lengths that
-    were refused. wrenches: (1 + coupled, 6), row 0 the total, inside, as they go out now; shown: when, in ns of the source's clock.
+    were refused. delay: how late the answers are, and how far the motion is predicted for that; frequency: of the platform; aimed: the moment (ns) that the
+    last step was meant for, None after a settle. wrenches: (1 + coupled, 6), row 0 the total, inside, as they go out now; shown: when, in ns of the source's clock.
     """
 
     def __init__(self, mooring, gate, output, check=None, clock=time.monotonic_ns):
@@ -33,6 +35,7 @@ class Session:
         self.steps = self.settles = self.unanswered = self.unwound = 0
         self.wrenches = self.shown = None
         self.source = SourceClock()
+        self.delay, self.frequency, self.aimed = Delay(), Frequency(), None
         self.steps_in = StepsIn()
         self._restarts = 0
         self._anew = True           # the next good sample settles: the first, and the first after a reset of the simulation
@@ -41,8 +44,8 @@ class Session:
         self._heard = None          # ns of the clock, when it did
         self._actions = []
         self._origin = None
-        self._stepped = None        # stamp (ns) to which the core has been stepped
-        self._unchecked = None
+        self._stepped = None        # moment (ns) to which the core has been stepped
+        self._unchecked = self._unmeasured = None
 
     @property
     def state(self):
@@ -59,7 +62,7 @@ class Session:
         if self._anew:
             return self._settle_at(motion)
         self._found(motion.stamp)
-        return self._step(motion.stamp, motion, motion.pose)
+        return self._step(motion.time, motion, motion.stamp)
 
     def look(self):
         """Judge by the clock alone. Returns the stamp of the last answer when the wrenches of HOLD and SAFE are to go out again, else None."""
@@ -79,29 +82,25 @@ class Session:
         motion = self._admit(sample, now)
         if motion is None:
             return None
-        self.source.hear(motion.stamp, self.clock())
+        self.source.hear(motion.time, self.clock())
         return self._settle_at(motion) if self._anew else None
 
     def tick(self):
         """Step to this moment with the last motion carried on; returns the stamp of the sample that is answered, or None.
 
-        The velocity is held. Where the input counts as lost nothing is made up any more: the core waits.
+        The acceleration is held. Where the input counts as lost nothing is made up any more: the core waits.
         """
         now = self.clock()
         motion, shown = self.gate.last, self.source.now(now)
         if self.wrenches is None or motion is None or shown is None:
             return None
-        ahead = (shown - motion.stamp) * 1e-9
-        lost = self.watch.input_lost(ahead, HORIZON)
+        lost = self.gate.cause if self.gate.lost else self.watch.input_lost((shown - motion.time) * 1e-9, HORIZON)
         self._judge(now, lost)
         if lost or self.state == SAFE:
             self._show(self._time(now))
             return self._good.stamp
         self._found(shown)
-        if shown <= self._stepped:
-            self._show(shown, self._computed(self.mooring))
-            return motion.stamp
-        return self._step(shown, motion, carry_on(motion, ahead * self.gate.adapter.time_factor))
+        return self._step(shown, motion, shown)
 
     # --- services, heartbeat ---
 
@@ -117,7 +116,7 @@ class Session:
         if relocated:
             self._new_stream()
         elif self._stepped is not None:     # the timer mode may have carried the last motion on: time does not go back
-            motion = motion._replace(stamp=max(motion.stamp, self._stepped))
+            motion = motion._replace(frame_time=max(motion.time, self._stepped))
         if self.check is not None and self.check.verdict.kind == WRONG:
             self.check = type(self.check)(self.gate.adapter)
         if self._settle_at(motion, "~/settle") is None:
@@ -180,10 +179,13 @@ class Session:
 
     def review(self):
         """Compare the twist of the last sample with its pose; may refuse the source. Not urgent: call it when the answer is out."""
+        if self._unmeasured is not None:
+            (time, motion), self._unmeasured = self._unmeasured, None
+            self.frequency.add(time, motion.pose, motion.twist)
         if self._unchecked is None:
             return
         (motion, sample), self._unchecked = self._unchecked, None
-        verdict = self.check.add(motion.stamp, motion.pose, sample.twist, sample.twist_frame)
+        verdict = self.check.add(motion.time, motion.pose, sample.twist, sample.twist_frame)
         if verdict.kind == WRONG:
             self._withdraw(FAULT, verdict.text)
 
@@ -199,7 +201,7 @@ class Session:
             self._restarts = self.gate.restarts
             self._new_stream()
             self._anew = True
-        self.steps_in.add(motion.stamp)
+        self.steps_in.add(motion.time)
         self.watch.hear(self.clock())
         if self.check is not None and not self.check.finished and not motion.bridged:
             self._unchecked = motion, sample
@@ -264,11 +266,11 @@ class Session:
             self.states.cause = heart
             self.unanswered += 1
             return None
-        if self._origin is None or motion.stamp < self._stepped:
+        if self._origin is None or motion.time < self._stepped:
             # Waves and failures have times of their own: those of a simulation's clock, or of a run by a wall clock.
-            self._origin = motion.stamp if motion.stamp >= WALL_CLOCK else 0
-        time, pose = self._seconds(motion.stamp), motion.pose
-        self._stepped = motion.stamp
+            self._origin = motion.time if motion.time >= WALL_CLOCK else 0
+        time, pose = self._seconds(motion.time), motion.pose
+        self._stepped, self.aimed = motion.time, None
         try:
             self.mooring.settle(np.array(pose), time=time)
         except (MooringError, ValueError) as error:
@@ -282,11 +284,19 @@ class Session:
         self.states.fire(self.clock(), SETTLED, cause)
         return self._answer(motion.stamp, motion, computed)
 
-    def _step(self, stamp, motion, pose):
-        """Step the core to a stamp, where a motion leads to a pose; returns the stamp that is answered."""
-        time = self._seconds(stamp)
+    def _step(self, aimed, motion, shown):
+        """Step the core to where a motion leads at the moment `aimed` (ns), and ahead of it by what makes up for the delay; shown: ns of the source's
+        clock, when the answer goes out. Returns the stamp that is answered."""
+        moment = aimed + self.delay.ahead(aimed)
+        if moment <= self._stepped:     # a tick between two readings of the source's clock
+            self._show(shown, self._computed(self.mooring))
+            return motion.stamp
+        pose, twist = motion.pose, motion.twist
+        if moment != motion.time:
+            pose, twist = carry_on(pose, twist, (moment - motion.time) * 1e-9 * self.gate.adapter.time_factor, motion.acceleration)
+        time = self._seconds(moment)
         try:
-            self.mooring.step(time, np.array(pose), np.array(motion.twist))
+            self.mooring.step(time, np.array(pose), np.array(twist))
         except (MooringError, ValueError) as error:
             return self._fail(str(error))
         computed = self._computed(self.mooring)
@@ -294,13 +304,13 @@ class Session:
         if not math.isfinite(computed.sum()):
             return self._fail(f"the step to t = {time:.6g} s gave a wrench that is not finite")
         self.steps += 1
-        self._stepped = stamp
-        self._act(motion.stamp, schedule.encode_step, time, pose, motion.twist)
-        return self._answer(stamp, motion, computed)
+        self._stepped, self.aimed, self._unmeasured = moment, aimed, (time, motion)
+        self._act(motion.stamp, schedule.encode_step, time, pose, twist)
+        return self._answer(shown, motion, computed)
 
-    def _answer(self, stamp, motion, computed):
+    def _answer(self, shown, motion, computed):
         self._good, self._heard = motion, self.clock()
-        self._show(max(stamp, self.shown) if self.states.held else stamp, computed)
+        self._show(max(shown, self.shown) if self.states.held else shown, computed)
         return motion.stamp
 
     def _act(self, stamp, encode, *values):
@@ -323,11 +333,3 @@ class Session:
         self.wrenches = self.output.apply(shown * 1e-9, self._static if self.states.held else computed)
         if self.state == RAMP and not self.output.ramping(shown * 1e-9):
             self.states.fire(self.clock(), RAMPED, f"after {self.output.duration:g} s")
-
-
-def carry_on(motion, seconds):
-    """The pose (7,) that a Motion reaches after some seconds (inside) at its twist."""
-    turn = rotation.from_rotation_vector([seconds * w for w in motion.twist[3:]])
-    q = rotation.multiply(turn, motion.pose[3:])
-    norm = math.hypot(*q)
-    return (*(x + seconds * v for x, v in zip(motion.pose[:3], motion.twist[:3])), *(c / norm for c in q))

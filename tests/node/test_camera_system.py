@@ -1,5 +1,4 @@
 """A camera system as the source: best-effort, poses only, bunched stamps, frames without the platform."""
-import math
 import sys
 from pathlib import Path
 
@@ -50,5 +49,5 @@ def test_frames_of_a_best_effort_camera_system_are_answered_smoothly_and_bridged
     # between frames the force goes up by what the motion does, not by what noise and bunched stamps would make of it
     change = np.abs(np.diff(surge[50:]))
     assert change.max() < 0.15 * np.ptp(surge[50:])
-    _, values, _ = peer.diagnostic("input", lambda level, values, _: values["non_finite"] == "4")
-    assert math.isclose(int(values["accepted"]), len(made) - 4, abs_tol=5)
+    _, values, _ = peer.diagnostic("input", lambda level, values, _: int(values["accepted"]) >= 0.98 * (len(made) - 4))
+    assert values["non_finite"] == "4" == values["bridged"] and int(values["late frames"]) > 20
