@@ -6,6 +6,7 @@ from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
 
+from mooring_ros.node.full_scale import PREFIX
 from mooring_ros.recording.reader import Recording
 
 from .history import History
@@ -50,8 +51,9 @@ def load_mcap_history(path):
 
 
 def _node(path, found):
-    """The node's name, with its namespace: what stands before /line_tensions."""
-    nodes = [topic[:-len(TENSIONS)] for topic, type_name in found.items() if topic.endswith(TENSIONS) and type_name == TYPES[TENSIONS]]
+    """The node's name, with its namespace: what stands before /line_tensions. What it tells of full scale beside a model is left out: times are the model's."""
+    nodes = [topic[:-len(TENSIONS)] for topic, type_name in found.items()
+             if topic.endswith(TENSIONS) and not topic.endswith(f"/{PREFIX}{TENSIONS}") and type_name == TYPES[TENSIONS]]
     if len(nodes) != 1:
         raise ValueError(f"{path}: {len(nodes)} topics end in {TENSIONS} (Float64MultiArray), expected one; "
                          f"it has {', '.join(sorted(found)) or 'no messages'}")

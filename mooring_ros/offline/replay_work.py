@@ -6,7 +6,7 @@ import numpy as np
 
 from mooring_ros.mooring import MooringError
 from mooring_ros.motion import Adapter
-from mooring_ros.node.full_scale import FullScale
+from mooring_ros.node.full_scale import PREFIX, FullScale
 from mooring_ros.node.messages import Messages
 from mooring_ros.recording import schedule
 from mooring_ros.recording.reader import Recording
@@ -50,7 +50,7 @@ def replay(args, mooring, motion, settings, watched=None):
     if motion.schedule is not None:
         recording = Recording(motion.path)
         topics = {topic: kind for topic, (kind, _) in recording.topics().items()}
-        identical = Identical(recording.messages([topic for topic in topics if topic.endswith(TENSIONS)]))
+        identical = Identical(recording.messages([topic for topic in topics if topic.endswith(TENSIONS) and f"/{PREFIX}/" not in topic]))
         inputs = recording.messages([topic for topic, kind in topics.items() if kind in INPUT_TYPES or topic.endswith(WINCHES)])
         steps = run_schedule(mooring, motion.schedule, motion.schedule_stamps, adapter.time_factor)
     else:
