@@ -1,4 +1,4 @@
-"""`mooring`: the command line. Needs no ROS graph.
+"""`mooring`: the command line. Needs no ROS graph, but for `status`.
 
 Exit status: 0 done; 1 the computation failed; 2 bad usage or bad input; 130 on Ctrl-C, with every output file closed and readable.
 """
@@ -10,7 +10,7 @@ import signal
 import sys
 import threading
 
-from . import check, recover, replay, static, trade, validate
+from . import check, recover, replay, static, status, trade, validate
 from .console import ComputationFailed, UsageError, complain
 
 COMMANDS = {
@@ -20,6 +20,7 @@ COMMANDS = {
     "validate": (validate, "two tension histories side by side"),
     "trade": (trade, "the speed-accuracy trade of a scene on this machine, and the setting to use"),
     "recover": (recover, "make a recording that was cut off readable again"),
+    "status": (status, "a running node: states, rates, delay, tensions, worst step"),
 }
 
 
