@@ -40,13 +40,16 @@ def run(quick=False, only=None):
 
 def outcomes(faults):
     """Yields (fault, outcome) of faults that share a node, or that start their own."""
-    shared = faults[0].node
+    rig = None
     with contextlib.ExitStack() as stack:
-        rig = stack.enter_context(Rig(SETUPS[shared])) if shared else None
-        for number, fault in enumerate(faults):
+        for fault in faults:
             begin = time.monotonic()
-            if rig and number:
-                rig.fresh()
+            if fault.node:
+                if rig is None or not rig.process.alive:    # the first one, or after one that ended it
+                    stack.close()
+                    rig = stack.enter_context(Rig(SETUPS[fault.node]))
+                else:
+                    rig.fresh()
             yield fault, {**_outcome(fault, rig), "seconds": time.monotonic() - begin}
 
 

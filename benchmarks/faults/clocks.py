@@ -1,10 +1,11 @@
 """Samples that are good in themselves, at the wrong time or in the wrong order."""
 import random
+import threading
 import time
 
 from .judge import Wrong
 from .registry import fault
-from .rig import STEP
+from .rig import BEGIN, STEP
 
 NEXT = "the next good sample is answered"
 SETTLE = "~/settle, once ten samples in a row agree"
@@ -52,7 +53,7 @@ def a_tenth_lost(rig):
             rig.stamp += STEP
         else:
             rig.send()
-    rig.expect("input", "lost|skipped|gap|missing")
+    rig.expect("input", "steps were lost")
 
 
 @fault("bunched: ten samples at once, then nothing for 0.2 s, ten times", "none needed: each is answered by its own stamp")
@@ -106,6 +107,92 @@ def pause(rig):
 def reset(rig):
     rig.send(100)
     _elsewhere_in_time(rig, rig._offset + 10_000_000_000 - rig.stamp, "reordered: stamp")
+
+
+@fault("the same with `on_reset: settle`", "none needed: the next sample settles", node="settling")
+def reset_settles(rig):
+    rig.send(100)
+    rig.jump_clock(BEGIN - rig.stamp)
+    rig.judge.good.clear()
+    rig.judge.settle(None)
+    rig.mark()
+    rig.send(50)
+    rig.expect("input", "settled anew: simulated time went back")
+
+
+@fault("no samples for a second, with `limits.input_age: 0.5`", "none needed: HOLD until the next good sample, then it ramps back", node="age")
+def input_lost(rig):
+    _wall(rig)
+    rig.judge.held()
+    time.sleep(0.5)
+    rig.mark()
+    rig.expect("state", "HOLD: no good input for 0.5")
+    rig.held()
+    while True:
+        rig.stamp = time.time_ns()
+        rig.send()
+        time.sleep(0.01)
+        if not rig.judge.blends:
+            break
+
+
+@fault("the heartbeat lost, samples going on, with `limits.heartbeat: 0.3`", "the heartbeat, and ~/settle", node="heartbeat")
+def heartbeat_lost(rig):
+    with Heart(rig) as heart:
+        rig.send(20)
+        rig.judge.held()
+        heart.stop()
+        time.sleep(0.3)
+        rig.mark()
+        rig.expect("state", "SAFE: no heartbeat for 0.3", level=2)
+        for _ in range(20):
+            rig.send_at(rig.stamp, good=False)
+            rig.stamp += STEP
+        rig.silence(0.1)
+        rig.held()
+        ok, words = rig.services.trigger("settle")
+        if ok or "heartbeat" not in words:
+            raise Wrong(f"~/settle works without a heartbeat, or does not say why not: {words}")
+        heart.start()
+        rig.silence(0.3)
+        rig.judge.good[rig.stamp - STEP] = rig.state(rig.stamp - STEP)
+        rig.settle()
+        rig.running()
+
+
+class Heart:
+    """Beats on ~/heartbeat at 20 Hz, until stopped."""
+
+    def __init__(self, rig):
+        self._publisher = rig.peer.publisher("/mooring/heartbeat", "std_msgs/msg/Empty")
+        self._beats, self._end = threading.Event(), threading.Event()
+        self._thread = threading.Thread(target=self._work, daemon=True)
+
+    def __enter__(self):
+        self.start()
+        self._thread.start()
+        while not self._publisher.subscriber_count:
+            time.sleep(0.01)
+        time.sleep(0.4)
+        return self
+
+    def __exit__(self, *_):
+        self._end.set()
+        self._thread.join()
+        self._publisher.close()
+
+    def start(self):
+        """Beat."""
+        self._beats.set()
+
+    def stop(self):
+        """Stand still."""
+        self._beats.clear()
+
+    def _work(self):
+        while not self._end.wait(0.05):
+            if self._beats.is_set():
+                self._publisher.send({})
 
 
 @fault("samples a second old by the node's clock", NEXT, node="age")

@@ -73,28 +73,23 @@ def winch_nonsense(rig):
                            (["line1", "line2"], [800.0]), ([], []), (["line1", "line1"], [800.0, 801.0]), (["../../line1"], [800.0])):
         rig.mark()
         winch.send({"name": names, "position": lengths})
-    rig.expect("core", "unstretched length")
+    rig.expect("core", "unstretched lengths refused")
     rig.send(20)
     winch.close()
 
 
-@fault("a line wound in to a thousandth of a millimetre", "a step that cannot be completed is not answered; cleanup and configure begin with the scene's lengths")
-def winch_to_nothing(rig):
+@fault("a slip of the decimal point at the winch: 83.5 m for 835 m", "it is refused; `limits.winch` says how far a message may go")
+def winch_slip(rig):
     rig.send(20)
     winch = rig.peer.publisher("/mooring/unstretched_lengths", _LENGTHS)
     while not winch.subscriber_count:
         rig.peer.wait(lambda: False, 0.01)
     rig.peer.wait(lambda: False, 0.3)
     rig.mark()
-    winch.send({"name": ["line1"], "position": [1e-6]})
-    rig.peer.wait(lambda: False, 0.1)
-    rig.send_at(rig.stamp, good=False)
-    rig.expect("core", "stopped|unstretched length", level=1)
-    rig.silence(0.2)
-    winch.close()
-    assert rig.services.transition("deactivate") and rig.services.transition("cleanup")
-    rig.fresh()
+    winch.send({"name": ["line1"], "position": [83.5]})
+    rig.expect("core", "unstretched lengths refused: unstretched length of line1 is 83.5 m")
     rig.send(20)
+    winch.close()
 
 
 @fault("~/settle a hundred times between samples", "none needed")
@@ -102,6 +97,20 @@ def many_settles(rig):
     rig.send(5)
     for _ in range(100):
         rig.settle()
+    rig.send(20)
+
+
+@fault("~/hold in full run, samples going on", "~/settle")
+def hold_asked(rig):
+    rig.send(20)
+    rig.judge.held()
+    rig.mark()
+    if not rig.services.trigger("hold")[0]:
+        raise Wrong("~/hold is refused")
+    rig.expect("state", "HOLD: ~/hold")
+    rig.held()
+    rig.settle()
+    rig.running()
     rig.send(20)
 
 

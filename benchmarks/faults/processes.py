@@ -8,7 +8,7 @@ from .disks import _recorded, recovered, wrenches_in
 from .judge import Wrong
 from .process import START
 from .registry import fault
-from .rig import Rig
+from .rig import STEP, Rig
 from .setups import QUIET
 
 

@@ -128,10 +128,28 @@ class Rig:
         self.judged()
 
     def silence(self, seconds):
-        """Wait; raises Wrong if a wrench comes."""
-        count = len(self.peer.heard)
-        if self.peer.wait(lambda: len(self.peer.heard) > count, seconds):
+        """Wait; raises Wrong if a sample is answered. What is held meanwhile goes out under the last stamp."""
+        last = self.peer.heard[-1].stamp if self.peer.heard else None
+        new = self.peer.wait(lambda: next((heard for heard in reversed(self.peer.heard) if heard.stamp != last), None) if last is None
+                             else self.peer.heard[-1].stamp != last, seconds)
+        if new:
             raise Wrong(f"a wrench with stamp {self.peer.heard[-1].stamp * 1e-9:.9f} s, expected none")
+
+    def held(self, timeout=3.0):
+        """Wait until the output has gone to the static wrench and stays there; the judge follows."""
+        def there():
+            self.judged()
+            return self.judge.share >= 1.0 - 1e-9 and self.judge.holds
+        if not self.peer.wait(there, timeout):
+            raise Wrong(f"the output has not reached the static wrench within {timeout} s, but {100.0 * self.judge.share:.1f} % of the way")
+
+    def running(self, timeout=5.0):
+        """Send good samples until the output is as computed again."""
+        end = time.monotonic() + timeout
+        while self.judge.blends:
+            if time.monotonic() > end:
+                raise Wrong(f"the output is not as computed within {timeout} s")
+            self.send()
 
     def judged(self):
         """Judge what was heard since the last time."""

@@ -5,4 +5,6 @@ QUIET = {"accuracy.enabled": False}     # the estimate has a processor's share o
 SETUPS = {
     "plain": QUIET,
     "age": {**QUIET, "limits.input_age": 0.5},
+    "heartbeat": {**QUIET, "limits.heartbeat": 0.3},
+    "settling": {**QUIET, "on_reset": "settle"},
 }

@@ -65,6 +65,8 @@ class Companion:
 
     def poll(self, now):
         """Take up an estimate that is there, and ask for the next one when there is a new window. now: s of a steady clock. Called once a second."""
+        if not self.ended and self._process.poll() is not None:
+            self.ended = f"its process ended with status {self._process.returncode}"
         while not self._answers.empty():
             found = self._answers.get()
             self.busy = False

@@ -44,6 +44,8 @@ def _guarded(decode, data, message_type):
 def _header(data):
     """Stamp in ns, frame_id and where the next field may begin."""
     seconds, nanoseconds, length = _STAMP_AND_LENGTH.unpack_from(data, _HEADER)
+    if nanoseconds >= 1_000_000_000:
+        raise ValueError(f"stamp has {nanoseconds} nanoseconds, expected less than a second of them")
     begin = _HEADER + _STAMP_AND_LENGTH.size
     return seconds * 1_000_000_000 + nanoseconds, _text(data, begin, length), begin + length
 

@@ -8,6 +8,7 @@ from mooring_ros.node.states import HOLD, IDLE, RAMP, RUN, SAFE
 OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
 PREFIX = "mooring: "
 RECENT = 5.0        # s for which something that happened still colours the level
+BEHIND = 1.0        # s of messages that a recording may owe to the disk: no more are lost to a kill
 LEVELS = {IDLE: WARN, RAMP: OK, RUN: OK, HOLD: WARN, SAFE: ERROR}
 
 
@@ -19,20 +20,20 @@ class Diagnostics:
         self._grown = {}
         self._session = None
 
-    def array(self, now, stamp, lifecycle, session=None, problem="", timing=None, recorder=None, accuracy=None, delay=None):
+    def array(self, now, stamp, lifecycle, session=None, problem="", timing=None, recorder=None, accuracy=None, delay=None, publishers=0):
         """The DiagnosticArray of this moment.
 
         lifecycle: label of the node's state. session: of the activation, or None. problem: why the node could not be configured, or "".
         timing: name -> value, with "missed" counted; recorder: the RecordingWriter, or None; accuracy: (words, name -> value), or None; delay: (whether it
-        matters, words, name -> value), or None.
+        matters, words, name -> value), or None. publishers: of the topic of the platform's motion that has most.
         """
         if session is not self._session:
             self._session = session
             self._grown = {}
         message = DiagnosticArray()
         message.header.stamp = stamp
-        message.status = [self._state(now, session), self._input(now, session), self._core(now, session, lifecycle, problem), self._timing(now, timing or {}),
-                          self._delay(delay), self._accuracy(accuracy), self._recording(recorder)]
+        message.status = [self._state(now, session), self._input(now, session, publishers), self._core(now, session, lifecycle, problem),
+                          self._timing(now, timing or {}), self._delay(delay), self._accuracy(accuracy), self._recording(recorder)]
         return message
 
     def _state(self, now, session):
@@ -42,7 +43,7 @@ class Diagnostics:
         return self._status("state", LEVELS[states.state], f"{states.state}: {states.cause}", {
             "state": states.state, "cause": states.cause, "for (s)": f"{1e-9 * (session.clock() - states.since):.3f}", "transitions": states.count})
 
-    def _input(self, now, session):
+    def _input(self, now, session, publishers):
         if session is None:
             return self._status("input", OK, "not active", {})
         gate, rejected = session.gate, sum(session.gate.rejected.values())
@@ -69,6 +70,8 @@ class Diagnostics:
             level, words = WARN, f"settled anew: {gate.resets.cause}"
         if session.check is not None and session.check.verdict.kind == WRONG:
             level, words = ERROR, session.check.verdict.text
+        if publishers > 1:
+            level, words = max(level, WARN), f"{publishers} publishers of the platform's motion, expected one; {words}"
         return self._status("input", level, words, values)
 
     @staticmethod
@@ -97,6 +100,8 @@ class Diagnostics:
         if session.wrenches is not None:
             values |= {"time (s)": f"{mooring.time:.3f}", "largest fairlead tension (N)": f"{mooring.fairlead_tension.max():.6g}"}
         level, words = OK, session.state
+        if self._grew("unwound", session.unwound, now):
+            level, words = WARN, f"unstretched lengths refused: {session.unwound_cause}"
         if session.state == HOLD:
             level, words = WARN, f"output held: {session.states.cause}"
         if self._grew("limited", limited, now):
@@ -116,7 +121,7 @@ class Diagnostics:
 
     def _accuracy(self, accuracy):
         words, values = accuracy or ("not active", {})
-        return self._status("accuracy", WARN if words.startswith("no estimate:") else OK, words, values)
+        return self._status("accuracy", WARN if words.startswith("no estimate:") or "process ended" in words else OK, words, values)
 
     def _recording(self, recorder):
         if recorder is None:
@@ -126,6 +131,8 @@ class Diagnostics:
             return self._status("recording", ERROR, recorder.error, values)
         if recorder.lost:
             return self._status("recording", ERROR, f"{recorder.lost} messages lost", values)
+        if recorder.behind > BEHIND:
+            return self._status("recording", WARN, f"{recorder.behind:.1f} s behind, the disk is slow", values)
         return self._status("recording", OK, f"{recorder.written} messages", values)
 
     def _grew(self, name, count, now):
@@ -143,9 +150,9 @@ class Diagnostics:
                                 values=[KeyValue(key=key, value=str(value)) for key, value in values.items()])
 
 
-def fingerprint(session, lifecycle, problem="", missed=0, recorder=None):
+def fingerprint(session, lifecycle, problem="", missed=0, recorder=None, publishers=0):
     """What is worth telling at once: when it differs from the last, something has happened. Cheap; arguments as of `Diagnostics.array`."""
-    own = (lifecycle, problem, missed, recorder and (recorder.error, recorder.lost))
+    own = (lifecycle, problem, missed, recorder and (recorder.error, recorder.lost, recorder.behind > BEHIND), publishers)
     if session is None:
         return own
     states, gate = session.states, session.gate

@@ -41,6 +41,10 @@ class Inputs:
             self._node.destroy_subscription(subscription)
         self._subscriptions = []
 
+    def publishers(self):
+        """How many publish on the topic that has most; one source is expected."""
+        return max(self._node.count_publishers(name) for name in self.topics)
+
     def review(self):
         """Listen best-effort to a silent topic whose publishers are all so; call it now and then. Returns the names of topics that changed."""
         changed = []

@@ -252,7 +252,7 @@ class MooringNode(LifecycleNode):
         if lengths is not None:
             _, words = session.wind(lengths)
         if words:
-            session.unwound += 1
+            session.unwound, session.unwound_cause = session.unwound + 1, words
             self.get_logger().warning(f"unstretched lengths refused, {session.unwound} so far, the last: {words}", throttle_duration_sec=5.0)
         stamp = last.stamp if last is not None else 0
         self._outputs.record_input(topic, type_name, data, stamp, stamp)
@@ -382,6 +382,7 @@ class MooringNode(LifecycleNode):
         watch = self._session.watch
         watch.input_age, watch.lost_frames, watch.heartbeat = values["limits.input_age"], values["limits.lost_frames"], values["limits.heartbeat"]
         watch.input_rate = values["input_rate"]
+        self._session.most_wound = values["limits.winch"]
         delay = self._session.delay
         delay.mode, delay.seconds, self._frequency = values["delay.compensate"], values["delay.seconds"], 2.0 * np.pi * values["delay.frequency"]
         self._arm()
@@ -391,7 +392,7 @@ class MooringNode(LifecycleNode):
     def _tick_diagnostics(self):
         lifecycle, now = self._state_machine.current_state[1], time.monotonic()
         missed = self._rate.missed if self._rate is not None else 0
-        news = fingerprint(self._session, lifecycle, self._problem, missed, self._recorder)
+        news = fingerprint(self._session, lifecycle, self._problem, missed, self._recorder, self._sources())
         if news != self._told or now - self._told_at >= DIAGNOSTICS_PERIOD:
             self._told = news
             self.publish_diagnostics(lifecycle)
@@ -408,7 +409,7 @@ class MooringNode(LifecycleNode):
         now = self._told_at = time.monotonic()
         self._reports.diagnostics(self._diagnostics.array(
             now, self.get_clock().now().to_msg(), lifecycle, self._session, self._problem, self._timing_values(), self._recorder, self._accuracy(now),
-            self._delay()), self._axis)
+            self._delay(), self._sources()), self._axis)
 
     def _omega(self):
         """Frequency of the platform in rad/s of the source's clock, or None."""
@@ -416,6 +417,9 @@ class MooringNode(LifecycleNode):
 
     def _delay(self):
         return None if self._session is None or not self._session.delay.counted else self._session.delay.status(self._omega())
+
+    def _sources(self):
+        return self._inputs.publishers() if self._inputs is not None else 0
 
     def _accuracy(self, now):
         if self._session is None or self._session.wrenches is None:

@@ -79,6 +79,8 @@ TABLE = (
     Entry("limits.gap", 60.0, "Longest time between two samples of one motion (s, full scale). 0: no limit."),
     Entry("limits.lost_frames", 0, "How many inputs in a row may hold no pose (NaN, zero quaternion), which are bridged by prediction, or not come at all, before HOLD. "
                                    "0: none are bridged, any may stay away.", high=1000),
+    Entry("limits.winch", 0.2, "Largest change of a line's unstretched length by one message (share of what it has); a larger one is refused. 0: no limit.",
+          high=10.0),
     Entry("ramp_time", 0.0, "Cosine ramp of the wrench after a start or a settle, and into and out of HOLD and SAFE (s). 0: none, and 1 s.", high=1e6),
     Entry("ramp_from", "zero", "What the first ramp begins from: nothing (zero), or the static wrench at the first sample (static).", choices=RAMP_FROM),
     Entry("on_reset", "refuse", "When simulated time goes back: wait for ~/settle (refuse), or settle anew at the next sample (settle).", fixed=True,

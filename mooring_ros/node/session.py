@@ -25,7 +25,8 @@ class Session:
     mooring: a fresh `Mooring`. gate, output, check: see motion.Gate, node.output.Output, motion.ConventionCheck (None: the source has no twist).
     clock: gives ns of a steady clock (of the simulation's, where time is simulated); input and heartbeat are watched by it.
     states: the state machine; watch: its limits. unanswered: good samples without an answer; unwound: messages with unstretched lengths that
-    were refused. delay: how late the answers are, and how far the motion is predicted for that; frequency: of the platform; aimed: the moment (ns) that the
+    were refused, unwound_cause: why the last was; most_wound: share of its length by which one of them may change a line, 0 for any.
+    delay: how late the answers are, and how far the motion is predicted for that; frequency: of the platform; aimed: the moment (ns) that the
     last step was meant for, None after a settle. wrenches: (1 + coupled, 6), row 0 the total, inside, as they go out now; shown: when, in ns of the source's clock.
     """
 
@@ -33,6 +34,7 @@ class Session:
         self.mooring, self.gate, self.output, self.check, self.clock = mooring, gate, output, check, clock
         self.states, self.watch = States(clock()), Watch()
         self.steps = self.settles = self.unanswered = self.unwound = 0
+        self.unwound_cause, self.most_wound = "", 0.0
         self.wrenches = self.shown = None
         self.source = SourceClock()
         self.delay, self.frequency, self.aimed = Delay(), Frequency(), None
@@ -162,6 +164,10 @@ class Session:
                 return False, f"there is no line {name!r}, expected one of {', '.join(names)}"
             if not 0.0 < length < math.inf:
                 return False, f"unstretched length of {name} is {length:g} m, expected a positive number"
+            now = self.mooring.unstretched_length[names.index(name)] / factor
+            if self.most_wound and abs(length / now - 1.0) > self.most_wound:
+                return False, (f"unstretched length of {name} is {length:g} m, expected no more than {100.0 * self.most_wound:g} % from the {now:g} m that it has "
+                               "(limits.winch)")
         for name, length in lengths.items():
             try:
                 self.mooring.set_unstretched_length(name, factor * length)

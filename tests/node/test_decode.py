@@ -53,3 +53,10 @@ def test_bytes_that_are_cut_off_are_refused():
 def test_bytes_of_another_encoding_that_make_no_message_are_refused(data):
     with pytest.raises(ValueError, match="no Odometry"):
         decode.odometry(data)
+
+
+@pytest.mark.parametrize("decoded, message", [(decode.odometry, Odometry()), (decode.pose_stamped, PoseStamped()), (decode.twist_stamped, TwistStamped())])
+def test_a_stamp_with_more_than_a_second_of_nanoseconds_is_refused(decoded, message):
+    message.header.stamp.nanosec = 4_000_000_000
+    with pytest.raises(ValueError, match="4000000000 nanoseconds"):
+        decoded(serialize_message(message))

@@ -91,6 +91,17 @@ def test_lengths_are_wound_at_the_sources_scale_recorded_and_all_or_none():
     assert [(wind.kind, wind.line, wind.length) for wind in winds] == [(schedule.WIND, 0, wound[0]), (schedule.WIND, 2, wound[2])]
 
 
+def test_a_slip_of_the_decimal_point_at_a_winch_is_refused_with_the_limit_that_it_broke():
+    session = Session(Mooring(SCENE), Gate(Adapter()), Output())
+    session.take(sample(0), None)
+    session.most_wound = 0.2
+    length = session.mooring.unstretched_length[0]
+    done, words = session.wind({"line2": 0.9 * length, "line1": 0.1 * length})
+    assert not done and "line1" in words and "20 %" in words and "limits.winch" in words
+    np.testing.assert_array_equal(session.mooring.unstretched_length, length)
+    assert session.wind({"line1": 0.85 * length})[0] and session.wind({"line1": 0.7 * length})[0]
+
+
 def test_ticks_carry_the_motion_on_and_stop_past_the_horizon(session, clock):
     assert session.tick() is None
     clock.at(1000)
