@@ -20,8 +20,8 @@ class Whole:
     """A floater on a Mooring of lines from fixed anchors to the platform, settled; the moorings are its own from here on."""
 
     def __init__(self, floater, mooring):
-        if type(mooring) is not Mooring or mooring.scene.bodies or mooring.scene.rods:
-            raise ValueError("expected a mooring of lines alone, of one fidelity")
+        if type(mooring) is not Mooring or mooring.scene.bodies or mooring.scene.rods or mooring.pose.ndim != 1:
+            raise ValueError("expected a mooring of lines alone, of one fidelity, on one platform")
         self._floater, self._m = floater, mooring
         model, state = mooring._model, mooring._state
         self._free = np.flatnonzero(~state.slaved[: model.size] & (model.mass[: model.size] > 0.0))
@@ -54,6 +54,6 @@ class Whole:
         for _ in range(_TURNS):
             state.acceleration_of_platform[:] = self._acceleration
             observe(model, state, 0, self._m._readings)
-            self._acceleration = self._floater.acceleration(pose, twist, self._m._readings.wrench[0])
+            self._acceleration = self._floater.acceleration(pose, twist, self._m.wrench)
         nodes = state.acceleration[:, self._free].ravel()
         return np.concatenate([twist[:3], quaternion_rate(pose[3:], twist[3:]), self._acceleration, y[13 + size :], nodes])
