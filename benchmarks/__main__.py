@@ -31,6 +31,8 @@ BENCHMARKS = {
     "iswec": "load and excursion of the two ISWEC moorings, against MoorPy",
     "ropes": "a viscoelastic rope, stretched, held and swung, against closed forms and MoorDyn",
     "fidelity": "the linear fidelity beyond its range, and the estimate of a mooring's error, against the truth (two minutes)",
+    "coupled_decay": "a floater on moorings, coupled with the node over DDS, against both as one system: period, damping, order (six minutes)",
+    "coupled_delay": "the same with a delay of the wrench: damping that is lost, and what prediction in the node gives back (five minutes)",
     "node_latency": "the ROS 2 node: input stamp to wrench, against an empty echo node",
     "faults": "everything that may go wrong around a running node, done to it from outside (five minutes)",
     "soak": "an hour of the node at 200 Hz with recording: nothing missing, nothing growing, replayed bit for bit",

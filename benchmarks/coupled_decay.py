@@ -89,7 +89,8 @@ def _orders(result, name, references, body, steps):
             times, coupled, _, _ = runs.decay(body, release, SCALE, step, floaters.duration(name, SCALE), scheme=scheme)
             size = SCALE if release.axis < 3 else 1.0
             motion = size * coordinate(coupled, release.axis)
-            errors.append(np.abs(motion - np.interp(times * np.sqrt(SCALE), at, right)).max() / release.size)
+            within = times * np.sqrt(SCALE) <= at[-1]
+            errors.append(np.abs(motion[within] - np.interp(times[within] * np.sqrt(SCALE), at, right)).max() / release.size)
             trace = (times * np.sqrt(SCALE), motion) if scheme == "held" and step == steps[-1] else trace
         slope = np.polyfit(np.log(steps[-3:]), np.log(errors[-3:]), 1)[0]
         result["order"][scheme] = errors

@@ -3,6 +3,7 @@ import time
 
 import numpy as np
 import pytest
+from rosgraph_msgs.msg import Clock
 from node_peer import SCENE, node_and_peer
 
 from mooring_ros.coupling import Coupling, LinkError
@@ -92,14 +93,20 @@ def test_a_jump_forward_is_refused(coupled):
     peer.diagnostic("input", lambda level, values, words: level != OK and values["jump"] == "2" and "jump" in words)
 
 
-def test_the_mode_timer_stands_still_with_the_clock(coupled):
-    mooring, peer = coupled(timing__mode="timer", timing__rate=50.0)
-    mooring.begin(HOME)
-    for _ in range(20):
-        mooring.exchange(HOME, np.zeros(6))
-        mooring.counts.lost = 0
-    peer.spin(0.3)
-    heard = len(peer.wrenches)
-    peer.spin(1.0)
-    assert len(peer.wrenches) <= heard + 1
-    peer.diagnostic("core", lambda level, *_: level == OK)
+def test_the_mode_timer_stands_still_with_the_clock(tmp_path):
+    with node_and_peer(tmp_path, use_sim_time=True, timing__mode="timer", timing__rate=50.0) as (_, peer):
+        peer.wait_for_node()
+        clock = peer.node.create_publisher(Clock, "/clock", 10)
+        peer.wait(clock.get_subscription_count, what="the node on /clock")
+        for k in range(60):     # at twice the speed of a wall clock
+            message = Clock()
+            message.clock.sec, message.clock.nanosec = 1, 10_000_000 * k
+            clock.publish(message)
+            peer.send(1.0 + 0.01 * k)
+            peer.spin(0.005)
+        peer.spin(0.5)
+        heard = len(peer.wrenches)
+        assert 10 < heard < 50      # 30 periods of simulated time, not those of 1 s that has passed
+        peer.spin(1.0)
+        assert len(peer.wrenches) <= heard + 1
+        peer.diagnostic("core", lambda level, *_: level == OK)
