@@ -17,6 +17,7 @@ from rclpy.lifecycle import TransitionCallbackReturn
 from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 
+from mooring_ros.node.loop import Loop
 from mooring_ros.node.mooring_node import MooringNode
 
 USAGE = """usage: mooring_node [--ros-args -p scene:=FILE [-p NAME:=VALUE ...] [--params-file FILE] [-r FROM:=TO ...]]
@@ -25,7 +26,6 @@ Answers the platform's motion on platform/odom with mooring forces on ~/wrench. 
 
 _WRONG_ARGUMENTS = (rclpy_implementation.RCLError, rclpy_implementation.RCLInvalidROSArgsError, rclpy_implementation.UnknownROSArgsError,
                     InvalidParameterTypeException, InvalidParameterValueException, InvalidNodeNameException, InvalidNamespaceException)
-_POLL = 0.2     # s, how often the loop looks for a signal
 
 
 class _Signals:
@@ -70,11 +70,12 @@ def main(arguments=None):
         return 0
     executor = EventsExecutor()
     executor.add_node(node)
+    loop = Loop(executor, node)
     try:
         _start(node)
         signals.at_once = False
         while not signals.stop and rclpy.ok():
-            executor.spin_once(timeout_sec=_POLL)
+            loop.turn()
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
     finally:

@@ -24,7 +24,7 @@ class Diagnostics:
         """The DiagnosticArray of this moment.
 
         lifecycle: label of the node's state. session: of the activation, or None. problem: why the node could not be configured, or "".
-        timing: name -> value, with "missed" counted; recorder: the RecordingWriter, or None; accuracy: (words, name -> value), or None; delay: (whether it
+        timing: (level, words, name -> value), with "missed" counted, or None; recorder: the RecordingWriter, or None; accuracy: (words, name -> value), or None; delay: (whether it
         matters, words, name -> value), or None. publishers: of the topic of the platform's motion that has most.
         """
         if session is not self._session:
@@ -33,7 +33,7 @@ class Diagnostics:
         message = DiagnosticArray()
         message.header.stamp = stamp
         message.status = [self._state(now, session), self._input(now, session, publishers), self._core(now, session, lifecycle, problem),
-                          self._timing(now, timing or {}), self._delay(delay), self._accuracy(accuracy), self._recording(recorder)]
+                          self._timing(now, timing), self._delay(delay), self._accuracy(accuracy), self._recording(recorder)]
         return message
 
     def _state(self, now, session):
@@ -111,9 +111,10 @@ class Diagnostics:
         return self._status("core", level, words, values)
 
     def _timing(self, now, timing):
-        missed = timing.get("missed", 0)
-        late = self._grew("missed", missed, now)
-        return self._status("timing", WARN if late else OK, f"{missed} cycles missed" if missed else "in time", timing)
+        level, words, values = timing or (OK, "", {})
+        missed = values.get("missed", 0)
+        level = max(level, WARN if self._grew("missed", missed, now) else OK)
+        return self._status("timing", level, "; ".join(filter(None, (f"{missed} cycles missed" if missed else "", words))) or "in time", values)
 
     def _delay(self, delay):
         matters, words, values = delay or (False, "not active", {})

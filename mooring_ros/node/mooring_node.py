@@ -13,18 +13,19 @@ from std_srvs.srv import Trigger
 
 from mooring_ros.mooring import Mooring, MooringError
 from mooring_ros.motion import Adapter, ConventionCheck, Gate, Limits, Velocity
-from mooring_ros.node import parameters
+from mooring_ros.node import live, parameters, realtime
 from mooring_ros.node.accuracy import Companion, report
-from mooring_ros.node.diagnostics import Diagnostics, fingerprint
+from mooring_ros.node.diagnostics import WARN, Diagnostics, fingerprint
 from mooring_ros.node.heartbeat import Heartbeat
 from mooring_ros.node.inputs import Inputs
 from mooring_ros.node.output import Output
 from mooring_ros.node.outputs import Outputs
+from mooring_ros.node.punctuality import Punctuality
 from mooring_ros.node.reports import Reports
 from mooring_ros.node.resets import Resets
 from mooring_ros.node.session import Session
 from mooring_ros.node.states import HOLD, IDLE, SAFE, Transition
-from mooring_ros.node.timing import Durations, FixedRate, Pace
+from mooring_ros.node.timing import FixedRate, Pace
 from mooring_ros.node.winch import Winch
 from mooring_ros.recording.attached import AttachedScene
 from mooring_ros.recording.errors import RecordingError
@@ -36,7 +37,6 @@ SUCCESS, FAILURE, ERROR = TransitionCallbackReturn.SUCCESS, TransitionCallbackRe
 DIAGNOSTICS_PERIOD = 1.0    # s
 NEWS_PERIOD = 0.1           # s: what is new is told within it
 _BACKWARD = JumpThreshold(min_forward=None, min_backward=Duration(nanoseconds=-1), on_clock_change=False)
-_HOLD_TIME = 1.0            # s, the ramp into the safe state where ramp_time does not say
 
 
 def _transition(callback):
@@ -63,12 +63,12 @@ class MooringNode(LifecycleNode):
         self._session = self._inputs = self._winch = self._heartbeat = self._outputs = self._recorder = self._mooring = self._adapter = None
         self._companion, self._settings = None, {}
         self._own_services = []
-        self._timer = self._rate = None
+        self._timer = self._rate = self._granted = None
         self._axis = None           # ns: where the recording stands
         self._problem = ""
         self._refused = self._restarts = 0
         self._frequency = 0.0       # rad/s of the source's clock, where it is given
-        self._durations, self._pace = Durations(), Pace()
+        self._punctuality, self._pace = Punctuality(), Pace()
         parameters.declare(self, lambda: self._mooring is not None)
         self.add_post_set_parameters_callback(lambda _: self._apply_live_parameters())
         self._steady = Clock(clock_type=ClockType.STEADY_TIME)
@@ -106,9 +106,12 @@ class MooringNode(LifecycleNode):
         if values["accuracy.enabled"]:
             self._companion = Companion(self._mooring, self._settings, values["accuracy.share"], values["accuracy.window"])
         timer = values["timing.mode"] == "timer"
-        self._rate = FixedRate(values["timing.rate"]) if timer else None
-        self._timer = self.create_timer(1.0 / values["timing.rate"], self._tick if timer else self._look,
-                                        clock=self.get_clock() if self._simulated else self._steady)
+        # Simulated deadlines come from a timer on that clock, which may be early; steady ones are the loop's (loop.py).
+        self._rate = FixedRate(values["timing.rate"], early=0.5 if self._simulated else 0.0) if timer else None
+        self._punctuality = Punctuality(values["timing.rate"] if timer else values["input_rate"])
+        if not timer or self._simulated:
+            self._timer = self.create_timer(1.0 / values["timing.rate"], self.cycle if timer else self._look,
+                                            clock=self.get_clock() if self._simulated else self._steady)
         self._apply_live_parameters()
         self._inputs = Inputs(self, values["input"], values["twist_frame"], gate, self._take)
         self._winch = Winch(self, self._wind)
@@ -117,6 +120,7 @@ class MooringNode(LifecycleNode):
         gc.collect()
         gc.freeze()
         gc.disable()
+        self._ask_for_real_time(values)
         self.get_logger().info(f"active: listens to {', '.join(self._inputs.topics)}")
         return super().on_activate(state)
 
@@ -202,7 +206,10 @@ class MooringNode(LifecycleNode):
             self._heartbeat.destroy()
         if self._timer is not None:
             self.destroy_timer(self._timer)
+        if self._granted is not None:
+            realtime.give_back()
         if self._session is not None:
+            self._reports.timing(self._punctuality, self._axis)
             gc.enable()
             gc.unfreeze()
         if self._companion is not None:
@@ -210,7 +217,15 @@ class MooringNode(LifecycleNode):
             self._companion = None
         if self._session is not None and self._session.state != IDLE:
             self._tell(Transition(self._session.clock(), self._session.state, IDLE, "deactivated", "not active"))
-        self._inputs = self._winch = self._heartbeat = self._timer = self._rate = self._session = None
+        self._inputs = self._winch = self._heartbeat = self._timer = self._rate = self._granted = self._session = None
+
+    def _ask_for_real_time(self, values):
+        priority, lock_memory = values["realtime.priority"], values["realtime.lock_memory"]
+        if priority or lock_memory:
+            self._granted = realtime.ask(priority, lock_memory)
+            self.get_logger().info(f"scheduling {self._granted.scheduling}, memory {self._granted.memory}")
+            for problem in self._granted.problems:
+                self.get_logger().warning(problem)
 
     def _take_down(self):
         self._end_session()
@@ -230,12 +245,13 @@ class MooringNode(LifecycleNode):
     # --- the way of a sample ---
 
     def _take(self, sample, topic, type_name, data, stamp):
-        arrived = time.perf_counter_ns()
+        arrived = time.monotonic_ns()
         session, outputs = self._session, self._outputs
         answers = None
         if sample is not None:
             now = self.get_clock().now().nanoseconds if session.gate.limits.input_age else None
             if self._rate is None:
+                self._punctuality.begin(arrived)
                 answers = session.take(sample, now)
             else:
                 answers = session.observe(sample, now)
@@ -258,11 +274,16 @@ class MooringNode(LifecycleNode):
         self._outputs.record_input(topic, type_name, data, stamp, stamp)
         self._after()
 
-    def _tick(self):
+    def deadline(self):
+        """ns of the steady clock at which `cycle` is due, or None."""
+        return None if self._rate is None or self._timer is not None else self._rate.next(time.monotonic_ns())
+
+    def cycle(self):
         """One cycle of the timer mode."""
-        begin = time.perf_counter_ns()
+        begin = time.monotonic_ns()
         if not self._rate.due(self._watch_now()):
             return
+        self._punctuality.begin(begin, self._rate.late)
         steps = self._session.steps
         answers = self._session.tick()
         if self._session.steps > steps:
@@ -285,10 +306,10 @@ class MooringNode(LifecycleNode):
         gate, outputs = self._session.gate, self._outputs
         outputs.use_frames(gate.frame, gate.child_frame)
         answered = outputs.answer(stamp, self._session)
-        took = time.perf_counter_ns() - begin
+        took = time.monotonic_ns() - begin
         if self._session.aimed is not None:
             self._session.delay.add(self._session.aimed, self.get_clock().now().nanoseconds, took)
-        self._durations.add(took)
+        self._punctuality.answered(took)
         self._pace.add(self._mooring.time, took, self._mooring.last_step)
         outputs.follow(stamp, answered)
         outputs.follow_stiffness(stamp, self._session.settles)
@@ -371,23 +392,9 @@ class MooringNode(LifecycleNode):
         if self._session is None:
             return
         values = parameters.values(self)
-        limits, output = self._session.gate.limits, self._session.output
-        for name in vars(limits):
-            setattr(limits, name, values[f"limits.{name}"])
-        to_inside = 1.0 / self._adapter.force_factor
-        output.force, output.force_rate = values["limits.force"] * to_inside, values["limits.force_rate"] * to_inside
-        output.ramp_time = values["ramp_time"]
-        output.hold_time = values["ramp_time"] or _HOLD_TIME
-        output.ramp_from = values["ramp_from"]
-        watch = self._session.watch
-        watch.input_age, watch.lost_frames, watch.heartbeat = values["limits.input_age"], values["limits.lost_frames"], values["limits.heartbeat"]
-        watch.input_rate = values["input_rate"]
-        self._session.most_wound = values["limits.winch"]
-        delay = self._session.delay
-        delay.mode, delay.seconds, self._frequency = values["delay.compensate"], values["delay.seconds"], 2.0 * np.pi * values["delay.frequency"]
+        live.apply(values, self._session, self._outputs, self._punctuality)
+        self._frequency = 2.0 * np.pi * values["delay.frequency"]
         self._arm()
-        self._outputs.visual_rate = values["visual_rate"]
-        self._outputs.stiffness.rate = values["stiffness_rate"]
 
     def _tick_diagnostics(self):
         lifecycle, now = self._state_machine.current_state[1], time.monotonic()
@@ -401,6 +408,7 @@ class MooringNode(LifecycleNode):
             gc.collect()
             if self._session.delay.counted and self._axis is not None:
                 self._outputs.tell_delay(self._session.delay.report(self._omega()), self._axis)
+            self._reports.timing(self._punctuality, self._axis)
             for name in self._inputs.review():
                 self.get_logger().warning(f"all publishers of {name} are best-effort: listens to it likewise, what is lost on the way is not sent again")
 
@@ -408,7 +416,7 @@ class MooringNode(LifecycleNode):
         """Publish the state now. lifecycle: label of the node's state."""
         now = self._told_at = time.monotonic()
         self._reports.diagnostics(self._diagnostics.array(
-            now, self.get_clock().now().to_msg(), lifecycle, self._session, self._problem, self._timing_values(), self._recorder, self._accuracy(now),
+            now, self.get_clock().now().to_msg(), lifecycle, self._session, self._problem, self._timing(), self._recorder, self._accuracy(now),
             self._delay(), self._sources()), self._axis)
 
     def _omega(self):
@@ -428,14 +436,16 @@ class MooringNode(LifecycleNode):
             self._companion.poll(now)
         return report(self._companion, self._pace, self._mooring, now)
 
-    def _timing_values(self):
-        values = {"mode": "input" if self._rate is None else "timer"}
+    def _timing(self):
+        level, words, values = self._punctuality.report()
+        facts = {"mode": "input" if self._rate is None else "timer", "missed": 0}
         if self._rate is not None:
-            values |= {"rate (Hz)": f"{1e9 / self._rate.period:g}", "cycles": self._rate.ticks, "missed": self._rate.missed}
-        spent = self._durations.milliseconds()
-        if spent:
-            values |= dict(zip(("input to wrench p50 (ms)", "input to wrench p99 (ms)", "input to wrench max (ms)"), (f"{ms:.3f}" for ms in spent)))
-        return values
+            facts |= {"rate (Hz)": f"{1e9 / self._rate.period:g}", "cycles": self._rate.ticks, "missed": self._rate.missed}
+        if self._granted is not None:
+            facts |= {"scheduling": self._granted.scheduling, "memory": self._granted.memory}
+            if self._granted.problems:
+                level, words = max(level, WARN), "; ".join(filter(None, (words, *self._granted.problems)))
+        return level, words, facts | values
 
     def destroy_node(self):
         """Close the recording even when nobody went through the lifecycle."""

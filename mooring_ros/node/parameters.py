@@ -9,6 +9,7 @@ from rclpy.parameter import Parameter
 from mooring_ros.fidelity import EXPECTED, check
 from mooring_ros.mooring import SOLVERS
 from mooring_ros.motion.frames import CONVENTIONS, TWIST_FRAMES, WRENCH_FRAMES
+from mooring_ros.node.punctuality import DEFAULTS, GRADES, UNITS
 from mooring_ros.node.resets import POLICIES
 from mooring_ros.node.output import RAMP_FROM
 from mooring_ros.node.delay import MODES as DELAY_MODES
@@ -66,6 +67,10 @@ TABLE = (
     Entry("delay.seconds", 0.0, "Delay by the source's clock (s) that is given, or that lies outside of the node: before the stamp, and after the wrench.", high=1.0),
     Entry("delay.frequency", 0.0, "Natural frequency of the moored platform by the source's clock (Hz), at which ~/delay tells the loss of damping. 0: from the motion.",
           high=1e3),
+    *(Entry(f"timing.threshold.{name}.{grade}", default, f"{name} from which on diagnostics are at the level {grade} ({UNITS[name]}). 0: never.")
+      for name, defaults in DEFAULTS.items() for grade, default in zip(GRADES, defaults)),
+    Entry("realtime.priority", 0, "SCHED_FIFO priority while active, as far as it is granted. 0: ordinary scheduling.", fixed=True, high=98),
+    Entry("realtime.lock_memory", False, "Lock the memory while active, as far as it is granted.", fixed=True),
     Entry("limits.force", 0.0, "Largest force on the platform (N, as published); a larger one is scaled down. 0: no limit."),
     Entry("limits.force_rate", 0.0, "Fastest change of that force (N/s, as published); a faster one is followed at this rate. 0: no limit."),
     Entry("limits.input_age", 0.0, "Oldest input that is used, and longest silence before HOLD (s by the node's clock). 0: no limit; timer mode then "

@@ -1,12 +1,16 @@
-"""What the node says about itself: /diagnostics, and every change of its state on ~/state; both recorded."""
+"""What the node says about itself: /diagnostics, every change of its state on ~/state, histograms of its times on ~/timing; all recorded."""
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.serialization import serialize_message
 
+from std_msgs.msg import Float64MultiArray, MultiArrayDimension
+
 from mooring_ros.node.diagnostics import LEVELS, PREFIX
+from mooring_ros.node.histogram import BINS
+from mooring_ros.node.messages import FLOAT_ARRAY, floats
 from mooring_ros.recording.qos import Qos
 
-DIAGNOSTICS, STATE = "/diagnostics", "~/state"
+DIAGNOSTICS, STATE, TIMING = "/diagnostics", "~/state", "~/timing"
 _ARRAY, _STATUS = "diagnostic_msgs/msg/DiagnosticArray", "diagnostic_msgs/msg/DiagnosticStatus"
 _DEPTH = 10
 
@@ -21,6 +25,7 @@ class Reports:
         self._name = node.get_fully_qualified_name()
         self._diagnostics = node.create_publisher(DiagnosticArray, DIAGNOSTICS, QoSProfile(depth=_DEPTH))
         self._state = node.create_publisher(DiagnosticStatus, STATE, QoSProfile(depth=_DEPTH, durability=DurabilityPolicy.TRANSIENT_LOCAL))
+        self._timing = node.create_publisher(Float64MultiArray, TIMING, QoSProfile(depth=_DEPTH))
         self._recorder = None
 
     @property
@@ -33,6 +38,7 @@ class Reports:
         if recorder is not None:
             recorder.declare(DIAGNOSTICS, _ARRAY, Qos(depth=_DEPTH))
             recorder.declare(self._state.topic_name, _STATUS, Qos(depth=_DEPTH, durability="transient_local"))
+            recorder.declare(self._timing.topic_name, FLOAT_ARRAY, Qos(depth=_DEPTH))
 
     def diagnostics(self, message, time):
         """Publish and record a DiagnosticArray. time: ns, on the recording's axis."""
@@ -44,6 +50,13 @@ class Reports:
         self._send(self._state, self._state.topic_name, _STATUS, DiagnosticStatus(
             name=PREFIX + "state", hardware_id=self._name, level=LEVELS[transition.after], message=transition.after,
             values=[KeyValue(key=key, value=value) for key, value in values.items()]), time)
+
+    def timing(self, punctuality, time):
+        """Publish and record the histograms of a Punctuality, counted since the activation. time: ns, on the recording's axis."""
+        message = Float64MultiArray(data=floats([punctuality.steps.counts, punctuality.lateness.counts]))
+        message.layout.dim = [MultiArrayDimension(label="time of a step, lateness", size=2, stride=2 * BINS),
+                              MultiArrayDimension(label="count up to 10^(k/20) us", size=BINS, stride=BINS)]
+        self._send(self._timing, self._timing.topic_name, FLOAT_ARRAY, message, time)
 
     def _send(self, publisher, topic, type_name, message, time):
         data = serialize_message(message)

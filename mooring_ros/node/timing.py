@@ -6,32 +6,41 @@ what the source's clock shows then, so that the last motion can be carried on to
 """
 from collections import deque
 
+NS = 1e9
 MODES = ("input", "timer")
 WALL_CLOCK = 1_000_000_000_000_000_000     # ns: stamps beyond 2001 are those of a wall clock, earlier ones of a simulation
 
 
 class FixedRate:
-    """Ticks at start + k·period, k = 0, 1, 2, … A late tick does not move the later ones; missed ones are skipped and counted."""
+    """Ticks at start + k·period, k = 0, 1, 2, … A late tick does not move the later ones; missed ones are skipped and counted.
 
-    def __init__(self, rate):
-        self.period = round(1e9 / rate)
-        self.missed = 0
-        self.ticks = 0
+    early: share of a period by which the caller may come before a deadline and still means it: timers do, who sleeps until it does not.
+    late: ns by which the last tick was.
+    """
+
+    def __init__(self, rate, early=0.0):
+        self.period = round(NS / rate)
+        self.missed = self.ticks = self.late = 0
+        self._early = round(early * self.period)
         self._start = None
         self._last = None
+
+    def next(self, now):
+        """The next deadline (ns)."""
+        return now if self._start is None else self._start + (self._last + 1) * self.period
 
     def due(self, now):
         """Whether a tick that was not taken yet has come; takes it."""
         if self._start is None:
             self._start = now
-        # The timer that calls may be early by a little: half a period decides to which deadline a call belongs.
-        tick = (now - self._start + self.period // 2) // self.period
+        tick = (now - self._start + self._early) // self.period
         if self._last is not None:
             if tick <= self._last:
                 return False
             self.missed += tick - self._last - 1
         self._last = tick
         self.ticks += 1
+        self.late = max(now - self._start - tick * self.period, 0)
         return True
 
     def restart(self):
@@ -68,23 +77,6 @@ class SourceClock:
     def restart(self):
         """Forget all: the source has a new clock."""
         self._offset = self._heard = self._shown = None
-
-
-class Durations:
-    """The last durations (ns) of something, for the diagnostics."""
-
-    def __init__(self, keep=1000):
-        self._values = deque(maxlen=keep)
-
-    def add(self, value):
-        self._values.append(value)
-
-    def milliseconds(self):
-        """Median, 99th percentile and maximum in ms; None when there is nothing yet."""
-        if not self._values:
-            return None
-        ordered = sorted(self._values)
-        return tuple(ordered[min(int(share * len(ordered)), len(ordered) - 1)] * 1e-6 for share in (0.5, 0.99, 1.0))
 
 
 class Pace:
