@@ -40,8 +40,8 @@ class Limits:
     """What a platform can do, at full scale; zero switches a limit off.
 
     input_age: s by the receiving clock. jump: m, jump_angle: rad: how far the new pose may lie from where the last pose and the
-    twists lead. jump_speed: m/s, jump_rate: rad/s: by how much a twist may change from sample to sample, and how fast such a
-    difference of pose may arise. gap: s, the longest time between two samples that is still one motion. lost_frames: how many samples in a row
+    twists lead. jump_speed: m/s, jump_rate: rad/s: by how much a twist may change from sample to sample (and how large one
+    may be that is made of poses), and how fast such a difference of pose may arise. gap: s, the longest time between two samples that is still one motion. lost_frames: how many samples in a row
     that hold no pose are bridged (0: none).
     """
 
@@ -231,7 +231,7 @@ class Gate:
         v, w = last.twist[:3], last.twist[3:]
         turn = rotation.turn_between(last.pose[3:], motion.pose[3:])
         if given:
-            problem = self._check_change(last.twist, motion.twist, given)
+            problem = self._check_change(last.twist, motion.twist)
             if problem:
                 return problem
             v, w = _middle(v, motion.twist[:3]), _middle(w, motion.twist[3:])
@@ -246,12 +246,11 @@ class Gate:
             return JUMP, f"attitude is {off_angle:.4g} rad from where the motion led, limit {limit:.4g} rad after {dt:.4g} s"
         return None
 
-    def _check_change(self, old, new, given):
+    def _check_change(self, old, new, words="twist changed by {} in one sample"):
         for part, limit, unit in ((slice(0, 3), self.limits.jump_speed, "m/s"), (slice(3, 6), self.limits.jump_rate, "rad/s")):
             change = math.dist(new[part], old[part])
             if limit and change > limit:
-                words = "twist" if given else "twist, from the poses,"
-                return JUMP, f"{words} changed by {change:.4g} {unit} in one sample, limit {limit:.4g} {unit}"
+                return JUMP, f"{words.format(f'{change:.4g} {unit}')}, limit {limit:.4g} {unit}"
         return None
 
     # --- what a sample becomes ---
@@ -291,8 +290,8 @@ class Gate:
             return motion, None, None
         origin = motion.time if self._origin is None else self._origin
         estimate = self._tracker.propose(self._seconds(motion.time - origin), motion.pose)
-        if last is not None:
-            problem = self._check_change(last.twist, estimate.twist, given)
+        if last is not None:    # as a whole: one that was let through, and is wrong, must not shut out those that are right
+            problem = self._check_change(REST, estimate.twist, "twist, made of the poses, is {}")
         return motion._replace(pose=estimate.pose, twist=estimate.twist, acceleration=estimate.acceleration), estimate, problem
 
     def _bridge(self, sample):

@@ -38,6 +38,7 @@ class PoseFilter:
     def __init__(self, period, bandwidth):
         if not (0.0 < period < math.inf and 0.0 < bandwidth < 0.5 / period):
             raise ValueError(f"period {period!r} s and bandwidth {bandwidth!r} Hz: expected positive numbers, the bandwidth below half the rate")
+        self.bandwidth = bandwidth
         self._omega = 2.0 * math.pi * bandwidth
         self._jerk = period * self._omega ** 6
         self._longest = _FORGET / bandwidth

@@ -3,8 +3,8 @@ import math
 
 import numpy as np
 import pytest
-import recorded
 
+from benchmarks import camera_frames as recorded
 from mooring_ros.motion import OnlineTwist
 from mooring_ros.motion.tracking import PoseFilter
 

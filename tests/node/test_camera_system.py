@@ -1,15 +1,11 @@
 """A camera system as the source: best-effort, poses only, bunched stamps, frames without the platform."""
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 from geometry_msgs.msg import PoseStamped
 from node_peer import Peer, node_and_peer, numbers, stamp_of
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 
-sys.path.append(str(Path(__file__).parents[1] / "motion"))
-import recorded
+from benchmarks import camera_frames as recorded
 
 
 @pytest.fixture(scope="module")

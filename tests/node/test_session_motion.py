@@ -1,15 +1,10 @@
 """Frame times, lost frames and predicted motion in a session, on a real mooring and clocks that are only numbers."""
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
+from node_peer import SCENE, UPRIGHT
 from test_session import MS, Clock, sample
 
-sys.path.append(str(Path(__file__).parents[1] / "motion"))
-import recorded
-from node_peer import SCENE, UPRIGHT
-
+from benchmarks import camera_frames as recorded
 from mooring_ros.mooring import Mooring
 from mooring_ros.motion import Adapter, Gate, Limits, Sample, Velocity
 from mooring_ros.node.output import Output

@@ -25,21 +25,21 @@ class Frame(NamedTuple):
     twist: np.ndarray
 
 
-def truth(t):
-    """Pose (7,) and twist (6,), world axes, at time t (s): surge 40 mm, heave 30 mm, pitch 5 degrees, at 1 Hz."""
+def truth(t, turning=True):
+    """Pose (7,) and twist (6,), world axes, at time t (s): surge 40 mm, heave 30 mm, and, turning, pitch 5 degrees, at 1 Hz."""
     phase = _OMEGA * t
-    angle, rate = 0.09 * np.sin(phase + 1.0), 0.09 * _OMEGA * np.cos(phase + 1.0)
+    angle, rate = (0.09 * np.sin(phase + 1.0), 0.09 * _OMEGA * np.cos(phase + 1.0)) if turning else (0.0, 0.0)
     pose = np.array([0.04 * np.sin(phase), 0.0, 0.03 * np.cos(phase), *Rotation.from_rotvec([0.0, angle, 0.0]).as_quat()])
     return pose, np.array([0.04 * _OMEGA * np.cos(phase), 0.0, -0.03 * _OMEGA * np.sin(phase), 0.0, rate, 0.0])
 
 
-def frames(seconds=4.0, rate=RATE, noise=1.0, moving=True, seed=1):
-    """Good frames with the stamps of when they were taken. noise: times NOISE and ANGLE_NOISE."""
+def frames(seconds=4.0, rate=RATE, noise=1.0, moving=True, turning=True, seed=1):
+    """Good frames with the stamps of when they were taken. noise: times NOISE and ANGLE_NOISE. moving, turning: whether the platform does."""
     random = np.random.default_rng(seed)
     made = []
     for k in range(round(seconds * rate)):
         t = k / rate
-        pose, twist = truth(t if moving else 0.0)
+        pose, twist = truth(t if moving else 0.0, turning)
         twist = twist if moving else np.zeros(6)
         measured = pose[:3] + noise * NOISE * random.standard_normal(3)
         turned = Rotation.from_rotvec(noise * ANGLE_NOISE * random.standard_normal(3)) * Rotation.from_quat(pose[3:])
