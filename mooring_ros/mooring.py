@@ -711,6 +711,7 @@ def _bytes(model):
 
 def _halt(state):
     state.velocity[:] = 0.0
+    state.expected[:] = 0.0
     state.lead[:] = 0.0
     state.parts[:, 7:] = 0.0
 

@@ -24,7 +24,7 @@ MOST_STEPS = 1e7  # largest steps in an interval: some minutes of work
 FINEST = 64.0  # times finer than the largest step a chunk is tried, before its interval is given up
 JUMP = 0.1  # of the tension and the line's weight: the change of a tension, from Euler steps to their mean, that is too much
 AXIAL_JUMP = 0.15  # the same for the scheme `AXIAL`, whose steps are long
-GENTLE = 0.3  # of the lines' weight: the tension that the platform may cause in a step of the scheme `AXIAL` by what it gains in speed
+GENTLE = 0.3  # of the lines' weight: the tension that the platform may cause in a step by what it gains in speed
 MOST_REFINED = 8.0  # times finer steps for that cause; a jump that stays is one of the line, not of the scheme
 REFINED_STEPS = 40.0  # largest steps for which a finer step is kept
 DRAG_SAFETY = 0.9  # of the Euler step at which drag would turn a velocity round
@@ -33,17 +33,20 @@ SURFACE_MARGIN, LIKELY_SPEED = 1.0, 5.0  # m, m/s: how far below the surface nod
 
 
 @stage
-def choose_step(table, span, refined, slow):
+def choose_step(table, span, refined, calm, transverse):
     """(row of the table, number of steps) with the least cost over `span` (s); of equals, the shorter steps.
 
-    Steps are at most those of the table over `refined`, and for the scheme `AXIAL` those that transverse waves and the platform's motion allow: `slow` (s).
+    Steps are at most those of the table over `refined`, and those that the platform's motion asks for: `calm` (s), down to one in `MOST_REFINED`. The
+    scheme `AXIAL` also keeps to what the transverse waves allow (s), and is left where that takes more than others at one in `FINEST`.
     """
     best, best_steps, best_cost = 0, 0.0, np.inf
     for row in range(table.shape[0]):
         largest = table[row, 1]
         if table[row, 0] == AXIAL:
-            largest = min(largest, slow)
-        steps = max(np.ceil(span * refined / largest - 1e-9), 1.0)
+            step = min(largest, min(calm, transverse)) / refined
+        else:
+            step = max(min(largest, max(calm, largest / MOST_REFINED)) / refined, largest / FINEST)
+        steps = max(np.ceil(span / step - 1e-9), 1.0)
         cost = steps * table[row, 3]
         if cost < best_cost:
             best, best_steps, best_cost = row, steps, cost
@@ -51,11 +54,13 @@ def choose_step(table, span, refined, slow):
 
 
 @stage
-def adapt(model, state, euler_step, lag):
-    """Set what the evaluations depend on from the Euler step (s) of which the scheme is made, and the time by which its velocities stand back (s)."""
+def adapt(model, state, scheme, euler_step, h):
+    """Set what the evaluations depend on from the Euler step (s) of which the scheme is made, and its whole step h (s)."""
+    lag = 0.5 * h if scheme <= LEAPFROG else 0.0  # the time by which its velocities stand back
     state.settings[0] = euler_step / (STAGGERED_DRAG_SAFETY if lag > 0.0 else DRAG_SAFETY)
     state.settings[1] = euler_step
     state.settings[8] = lag
+    state.settings[9] = lag if scheme == LEAPFROG else 0.0  # `AXIAL` takes the mean of the rates before and after
 
 
 @stage
@@ -168,6 +173,14 @@ def remember_grip(model, state, scratch):
     )
 
 
+@stage
+def expect(model, state):
+    """Keep the accelerations of nodes that share their motion: friction goes by the speed that they are about to have."""
+    for k in range(3):
+        for i in range(model.size):
+            state.expected[k, i] = state.acceleration[k, i] if state.slaved[i] else 0.0
+
+
 @routine
 def let_go(model, state, scratch, time):
     """Let lines part that are due at `time` (s)."""
@@ -214,6 +227,8 @@ def take_steps(model, state, scratch, scheme, h, steps, start, ds):
         worst = max(worst, tension_jumped(model, state, scratch, AXIAL_JUMP if scheme == AXIAL else JUMP))
         if state.grip.shape[1] > 0:
             remember_grip(model, state, scratch)
+        if state.expected.shape[1] > 0:
+            expect(model, state)
         if model.failures.point.size > 0:
             let_go(model, state, scratch, state.clock[0] + end * scratch.motion[0, 7, 0])
     return worst
@@ -238,7 +253,7 @@ def advance(model, state, scratch, table, time, poses, twists, report):
         largest, smallest = max(largest, table[row, 1]), min(smallest, table[row, 1])
     calm = GENTLE * model.gentle / max(hardest_acceleration(model, scratch.motion), 1e-12)
     settings = state.settings
-    previous = (settings[0], settings[1], settings[2], settings[3], settings[4], settings[6], settings[8])
+    previous = (settings[0], settings[1], settings[2], settings[3], settings[4], settings[6], settings[8], settings[9])
     if not duration <= MOST_STEPS * largest:
         return TOO_LONG
     average_acceleration(state, scratch, twists, duration, min(duration / smallest, 1.0))  # samples closer than a step share one mean: their differences are noise
@@ -257,10 +272,10 @@ def advance(model, state, scratch, table, time, poses, twists, report):
                 looked_ahead = True
             refresh(model.sea, now, now + span, model.size, state.position, state.velocity, scratch.wave_work, state.window_times, state.window)
         while True:
-            slow = min(calm, transverse_step(model, state)) if table[0, 0] == AXIAL else np.inf
-            row, steps = choose_step(table, span, refined, slow)
+            transverse = transverse_step(model, state) if table[0, 0] == AXIAL else np.inf
+            row, steps = choose_step(table, span, refined, calm, transverse)
             h = span / steps
-            adapt(model, state, h / table[row, 2], 0.5 * h if table[row, 0] <= LEAPFROG else 0.0)
+            adapt(model, state, table[row, 0], h / table[row, 2], h)
             look_at_surface(model, state, SURFACE_MARGIN + model.bulk + span * max(LIKELY_SPEED, ends))
             if stagger(model, state, settings[8], lag) or again:
                 settings[6] = state.clock[0] + start * duration + 0.5 * h
@@ -278,7 +293,7 @@ def advance(model, state, scratch, table, time, poses, twists, report):
         if wild or torn:
             recall(model, state, scratch, 0)
             recall_acceleration(state, scratch)
-            settings[0], settings[1], settings[2], settings[3], settings[4], settings[6], settings[8] = previous
+            settings[0], settings[1], settings[2], settings[3], settings[4], settings[6], settings[8], settings[9] = previous
             if settings[2] == 0.0:
                 all_wet(model, state)
             if looked_ahead:

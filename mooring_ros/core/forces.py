@@ -57,6 +57,7 @@ def touch_ground(model, state, scratch, step):
         state.slaved,
         scratch.bed,
         state.grip,
+        state.expected,
         state.force,
         scratch.hold,
     )

@@ -54,13 +54,14 @@ def _push(step, depth, speed, free_acceleration, mobility, stiffness, damping):
 
 @kernel
 def contact(
-    ground, size, step, position, velocity, tangent, bed_stiffness, bed_damping, inertia_normal, inertia_axial, slaved, bed, grip, force, hold
+    ground, size, step, position, velocity, tangent, bed_stiffness, bed_damping, inertia_normal, inertia_axial, slaved, bed, grip, expected, force, hold
 ):
     """Add the bed's forces (N) to `force` (3, n), which holds all other forces on the nodes already.
 
     They are taken implicitly over the Euler step `step` (s), so that a = M^-1 F afterwards is the linearly implicit step; zero is the
     plain law. Nodes that are `slaved` (n,) share their motion with others: their forces are those of the law at their place and speed,
-    and hold (2, n) is what their owner adds to the inertia (kg) along the normal and in the tangent plane.
+    and hold (3, n) is what their owner adds to the inertia (kg) along the normal, and in the bed's plane along the line and across it. Friction is then the law's secant
+    at the speed that they will have with the acceleration `expected` (3, n): at the present speed alone, what starts to slide would hardly get going.
     """
     start = 0
     while start < size:  # the laws cost more than asking who needs them
@@ -70,7 +71,7 @@ def contact(
         if stop == start:
             stop = min(start + TOGETHER, size)
             for i in range(start, stop):
-                hold[0, i] = hold[1, i] = 0.0
+                hold[0, i] = hold[1, i] = hold[2, i] = 0.0
         elif ground.law == NO_FRICTION:
             _smooth(
                 start,
@@ -103,6 +104,7 @@ def contact(
                 inertia_axial,
                 slaved,
                 bed,
+                expected,
                 force,
                 hold,
             )
@@ -122,6 +124,7 @@ def contact(
                 slaved,
                 bed,
                 grip,
+                expected,
                 force,
                 hold,
             )
@@ -142,7 +145,7 @@ def _smooth(first, stop, step, position, velocity, tangent, bed_stiffness, bed_d
     qx, qy, qz = tangent[0, first : stop + 1], tangent[1, first : stop + 1], tangent[2, first : stop + 1]
     fx, fy, fz = force[0, first:stop], force[1, first:stop], force[2, first:stop]
     level, normal_x, normal_y, normal_z = bed[0, first:stop], bed[1, first:stop], bed[2, first:stop], bed[3, first:stop]
-    hold_normal, hold_along = hold[0, first:stop], hold[1, first:stop]
+    hold_normal, hold_axial, hold_across = hold[0, first:stop], hold[1, first:stop], hold[2, first:stop]
     bed_stiffness, bed_damping, slaved = bed_stiffness[first:stop], bed_damping[first:stop], slaved[first:stop]
     inertia_normal, inertia_axial = inertia_normal[first:stop], inertia_axial[first:stop]
     for i in range(stop - first):
@@ -158,7 +161,7 @@ def _smooth(first, stop, step, position, velocity, tangent, bed_stiffness, bed_d
         fy[i] += push * ny
         fz[i] += push * nz
         hold_normal[i] = step * (bed_damping[i] + step * bed_stiffness[i]) if push > 0.0 else 0.0
-        hold_along[i] = 0.0
+        hold_axial[i] = hold_across[i] = 0.0
 
 
 @stage
@@ -179,13 +182,13 @@ def along_bed(tx, ty, tz, nx, ny, nz):
 
 @stage
 def _saturated(
-    ground, first, stop, step, position, velocity, tangent, bed_stiffness, bed_damping, inertia_normal, inertia_axial, slaved, bed, force, hold
+    ground, first, stop, step, position, velocity, tangent, bed_stiffness, bed_damping, inertia_normal, inertia_axial, slaved, bed, expected, force, hold
 ):
     z, u, v, w = position[2, first:stop], velocity[0, first:stop], velocity[1, first:stop], velocity[2, first:stop]
     qx, qy, qz = tangent[0, first : stop + 1], tangent[1, first : stop + 1], tangent[2, first : stop + 1]
     fx, fy, fz = force[0, first:stop], force[1, first:stop], force[2, first:stop]
     level, normal_x, normal_y, normal_z = bed[0, first:stop], bed[1, first:stop], bed[2, first:stop], bed[3, first:stop]
-    hold_normal, hold_along = hold[0, first:stop], hold[1, first:stop]
+    hold_normal, hold_axial, hold_across = hold[0, first:stop], hold[1, first:stop], hold[2, first:stop]
     static_axial, static_across, kinetic_axial, kinetic_across = (
         ground.static_axial,
         ground.static_across,
@@ -195,6 +198,7 @@ def _saturated(
     bed_stiffness, bed_damping, slaved = bed_stiffness[first:stop], bed_damping[first:stop], slaved[first:stop]
     inertia_normal, inertia_axial = inertia_normal[first:stop], inertia_axial[first:stop]
     directional, ramp = ground.directional, ground.ramp
+    more_x, more_y, more_z = expected[0, first:stop], expected[1, first:stop], expected[2, first:stop]
     for i in range(stop - first):
         nx, ny, nz = normal_x[i], normal_y[i], normal_z[i]
         tx, ty, tz = qx[i] + qx[i + 1], qy[i] + qy[i + 1], qz[i] + qz[i + 1]
@@ -208,7 +212,7 @@ def _saturated(
         # velocities in the plane, now (v) and after the step without friction (d), split along and across the line
         tf = surplus * (tx * gx + ty * gy + tz * gz)
         vx, vy, vz = in_plane(u[i], v[i], w[i], nx, ny, nz)
-        dx, dy, dz = in_plane(across * gx + tf * tx, across * gy + tf * ty, across * gz + tf * tz, nx, ny, nz)
+        dx, dy, dz = in_plane(across * gx + tf * tx + more_x[i], across * gy + tf * ty + more_y[i], across * gz + tf * tz + more_z[i], nx, ny, nz)
         dx, dy, dz = vx + step * dx, vy + step * dy, vz + step * dz
         px, py, pz, square, inverse = along_bed(tx, ty, tz, nx, ny, nz)
         inverse *= directional
@@ -223,16 +227,20 @@ def _saturated(
         axial = saturated_part(abs(then) * length, abs(now) * length, push, static_axial, kinetic_axial, ramp, give_axial)
         drift, speed = np.sqrt(dx * dx + dy * dy + dz * dz), np.sqrt(vx * vx + vy * vy + vz * vz)
         side = saturated_part(drift, speed, push, static_across, kinetic_across, ramp, give_across)
-        fx[i] = gx - axial * then * px - side * dx
-        fy[i] = gy - axial * then * py - side * dy
-        fz[i] = gz - axial * then * pz - side * dz
+        shared = slaved[i]
+        dx, dy, dz = vx if shared else dx, vy if shared else dy, vz if shared else dz
+        axial_force = axial * (now if shared else then)
+        fx[i] = gx - axial_force * px - side * dx
+        fy[i] = gy - axial_force * py - side * dy
+        fz[i] = gz - axial_force * pz - side * dz
         hold_normal[i] = step * (bed_damping[i] + step * bed_stiffness[i]) if push > 0.0 else 0.0
-        hold_along[i] = step * max(axial, side) if push > 0.0 else 0.0  # of a shared node, which drifts at its speed: the law's secant
+        hold_axial[i] = step * axial if push > 0.0 else 0.0  # of a shared node: the law's secant at the speed that is expected of it
+        hold_across[i] = step * side if push > 0.0 else 0.0
 
 
 @stage
 def _sticking(
-    ground, first, stop, step, position, velocity, tangent, bed_stiffness, bed_damping, inertia_normal, inertia_axial, slaved, bed, grip, force, hold
+    ground, first, stop, step, position, velocity, tangent, bed_stiffness, bed_damping, inertia_normal, inertia_axial, slaved, bed, grip, expected, force, hold
 ):
     x, y, z = position[0, first:stop], position[1, first:stop], position[2, first:stop]
     u, v, w = velocity[0, first:stop], velocity[1, first:stop], velocity[2, first:stop]
@@ -240,12 +248,13 @@ def _sticking(
     fx, fy, fz = force[0, first:stop], force[1, first:stop], force[2, first:stop]
     level, normal_x, normal_y, normal_z = bed[0, first:stop], bed[1, first:stop], bed[2, first:stop], bed[3, first:stop]
     grip_x, grip_y, grip_z, state = grip[0, first:stop], grip[1, first:stop], grip[2, first:stop], grip[3, first:stop]
-    hold_normal, hold_along = hold[0, first:stop], hold[1, first:stop]
+    hold_normal, hold_axial, hold_across = hold[0, first:stop], hold[1, first:stop], hold[2, first:stop]
     by_static_axial, by_static_across = 1.0 / max(ground.static_axial, SMOOTHEST), 1.0 / max(ground.static_across, SMOOTHEST)
     by_kinetic_axial, by_kinetic_across = 1.0 / max(ground.kinetic_axial, SMOOTHEST), 1.0 / max(ground.kinetic_across, SMOOTHEST)
     bed_stiffness, bed_damping, slaved = bed_stiffness[first:stop], bed_damping[first:stop], slaved[first:stop]
     inertia_normal, inertia_axial = inertia_normal[first:stop], inertia_axial[first:stop]
     stiffer, denser = ground.stiffness_ratio, ground.damping_ratio
+    more_x, more_y, more_z = expected[0, first:stop], expected[1, first:stop], expected[2, first:stop]
     for i in range(stop - first):
         nx, ny, nz = normal_x[i], normal_y[i], normal_z[i]
         tx, ty, tz = qx[i] + qx[i + 1], qy[i] + qy[i + 1], qz[i] + qz[i + 1]
@@ -261,9 +270,9 @@ def _sticking(
         spring, resist = stiffer * bed_stiffness[i], denser * bed_damping[i] + step * stiffer * bed_stiffness[i]
         remembered = spring if state[i] >= 0.0 else 0.0
         dx, dy, dz = in_plane(
-            remembered * (x[i] - grip_x[i]) + resist * (u[i] + step * (across * gx + tf * tx)),
-            remembered * (y[i] - grip_y[i]) + resist * (v[i] + step * (across * gy + tf * ty)),
-            remembered * (z[i] - grip_z[i]) + resist * (w[i] + step * (across * gz + tf * tz)),
+            remembered * (x[i] - grip_x[i]) + resist * (u[i] + step * (across * gx + tf * tx + more_x[i])),
+            remembered * (y[i] - grip_y[i]) + resist * (v[i] + step * (across * gy + tf * ty + more_y[i])),
+            remembered * (z[i] - grip_z[i]) + resist * (w[i] + step * (across * gz + tf * tz + more_z[i])),
             nx,
             ny,
             nz,
@@ -281,13 +290,17 @@ def _sticking(
             give * (across + surplus * square),
             give * across,
         )
-        part *= axial
+        mx, my, mz = in_plane(more_x[i], more_y[i], more_z[i], nx, ny, nz)
+        more = inverse * (mx * px + my * py + mz * pz)
+        dx, dy, dz = dx - give * (mx - more * px), dy - give * (my - more * py), dz - give * (mz - more * pz)
+        hold_axial[i] = part * give if push > 0.0 else 0.0  # of a shared node, which does not give way: its share
+        hold_across[i] = side * give if push > 0.0 else 0.0
+        part *= axial - give * more
         fx[i] = gx - part * px - side * dx
         fy[i] = gy - part * py - side * dy
         fz[i] = gz - part * pz - side * dz
-        hold_along[i] = side * give if push > 0.0 else 0.0  # of a shared node, which does not give way: its share
     for i in range(stop - first):  # apart: one array more, and the compiler gives up proving that none overlap
-        hold_normal[i] = step * (bed_damping[i] + step * bed_stiffness[i]) if hold_along[i] > 0.0 else 0.0
+        hold_normal[i] = step * (bed_damping[i] + step * bed_stiffness[i]) if hold_across[i] > 0.0 else 0.0
 
 
 @kernel

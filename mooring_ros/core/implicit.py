@@ -137,7 +137,7 @@ def advance(model, state, scratch, plan, work, scheme, longest, time, poses, twi
         average_acceleration(state, scratch, twists, duration, min(duration / SMOOTHING, 1.0))
         work.settings[9] = 0.0  # whether the waves have been looked at further ahead
         report[0], report[1], report[2], report[3] = 0.0, 0.0, 0.0, duration
-    settings[0], settings[1], settings[8] = 0.0, 0.0, 0.0
+    settings[0], settings[1], settings[8], settings[9] = 0.0, 0.0, 0.0, 0.0
     steps = int(np.ceil(duration / min(longest, model.sea.refresh) - 1e-9))
     h = duration / steps
     good, torn = True, False

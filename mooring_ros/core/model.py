@@ -21,7 +21,7 @@ from .hulls import Hulls, build_hulls
 from .layout import POINT_COUPLED, POINT_FREE, POINT_RIDING, Layout
 from .packed import packed
 from .ropes import Ropes, build_ropes, rope_damping
-from .friction import STICK
+from .friction import NO_FRICTION, STICK
 from .sea import Sea, build_sea, fastest_water
 from .waves import WINDOW_ROWS, WORK_SIZE
 
@@ -140,12 +140,13 @@ class State(NamedTuple):
     clamp_axis: np.ndarray  # (C, 3), unit vectors from the clamps into their lines
     clamp_moment: np.ndarray  # (C, 3), N m on what holds the clamp
     grip: np.ndarray  # (4, n): what the friction law `stick` remembers (ground.py); (4, 0) without it
+    expected: np.ndarray  # (3, n), m/s^2: acceleration of nodes that share their motion at the last step, none of others; (3, 0) without friction
     window: np.ndarray  # (2, rows, n): the waves at the nodes at two times (waves.py); (2, rows, 0) without any
     window_times: np.ndarray  # (2,), s
     slaved: np.ndarray  # (n,): whether the node shares its motion with others
     end_point: np.ndarray  # (E,) index of the point that holds the end, or LOOSE
     failed: np.ndarray  # (F,) 1 for a failure that has happened
-    settings: np.ndarray  # (9,) drag time (s), Euler step of stiff local laws (s), 1 if wet shares are computed; refinement of the step, kept until (s); largest strain; time of the evaluation (s), 1 in the statics; time by which velocities stand back from places (s)
+    settings: np.ndarray  # (10,) drag time (s), Euler step of stiff local laws (s), 1 if wet shares are computed; refinement of the step, kept until (s); largest strain; time of the evaluation (s), 1 in the statics; time by which velocities stand back from places (s), and the same where the rates of length are taken as they are
 
 
 @packed
@@ -172,6 +173,7 @@ class Scratch(NamedTuple):
     saved_ends: np.ndarray  # (2, E)
     saved_failed: np.ndarray  # (2, F)
     saved_grip: np.ndarray  # (2, 4, n) or (2, 4, 0)
+    saved_expected: np.ndarray  # (2, 3, n) or (2, 3, 0)
     saved_window: np.ndarray  # (2, rows, n): of the interval's start
     saved_window_times: np.ndarray  # (2,)
     bending: np.ndarray  # (5, n): work of bending.py
@@ -392,16 +394,16 @@ def _place_point(rows, place, node, env):
 
 
 def _sizes(model):
-    """Nodes of which the state holds slow strains, grips and waves: all or none."""
+    """Nodes of which the state holds slow strains, grips, expected accelerations and waves: all or none."""
     n = model.mass.size
-    needed = (model.ropes.kelvin_first.size, model.ground.law == STICK, model.sea.frequency.size)
+    needed = (model.ropes.kelvin_first.size, model.ground.law == STICK, model.ground.law != NO_FRICTION, model.sea.frequency.size)
     return tuple(n if need else 0 for need in needed)
 
 
 def new_state(model, end_point):
     """State at rest, everything at the origin; `statics.settle` places it."""
     n, parts, clamps = model.mass.size, model.rigid.mass.size, model.clamps.part.size
-    creeping, gripping, waving = _sizes(model)
+    creeping, gripping, rubbing, waving = _sizes(model)
     slaved = np.zeros(n, dtype=bool)
     slaved[model.end_node] = slaved[model.point_node] = True
     position = np.zeros((3, n))
@@ -437,18 +439,19 @@ def new_state(model, end_point):
         clamp_axis=model.clamps.axis.copy(),
         clamp_moment=np.zeros((clamps, 3)),
         grip=np.full((4, gripping), NO_CONTACT),
+        expected=np.zeros((3, rubbing)),
         window=np.zeros((2, WINDOW_ROWS, waving)),
         window_times=np.array([0.0, -1.0]),
         slaved=slaved,
         end_point=end_point.copy(),
         failed=np.zeros(model.failures.point.size, dtype=np.int64),
-        settings=np.array([0.0, 0.0, 0.0, 1.0, 0.0, np.inf, 0.0, 0.0, 0.0]),
+        settings=np.array([0.0, 0.0, 0.0, 1.0, 0.0, np.inf, 0.0, 0.0, 0.0, 0.0]),
     )
 
 
 def new_scratch(model):
     n, parts = model.mass.size, model.rigid.mass.size
-    creeping, gripping, waving = _sizes(model)
+    creeping, gripping, rubbing, waving = _sizes(model)
     joints = 3 * model.free_points.size if model.free_points.size <= MOST_JOINTS else 0
     return Scratch(
         position=np.zeros((3, n)),
@@ -471,11 +474,12 @@ def new_scratch(model):
         saved_ends=np.zeros((2, model.end_node.size), dtype=np.int64),
         saved_failed=np.zeros((2, model.failures.point.size), dtype=np.int64),
         saved_grip=np.zeros((2, 4, gripping)),
+        saved_expected=np.zeros((2, 3, rubbing)),
         saved_window=np.zeros((2, WINDOW_ROWS, waving)),
         saved_window_times=np.zeros(2),
         bending=np.zeros((5, n if model.bending.stiffness.size else 0)),
         bed=np.zeros((4, n if model.ground.on else 0)),
-        hold=np.zeros((2, n if model.ground.on else 0)),
+        hold=np.zeros((3, n if model.ground.on else 0)),
         wave_work=np.zeros(WORK_SIZE if waving else 0),
         load=np.zeros((model.point_node.size, 9)),
         matrix=np.zeros((6, 8)),

@@ -4,8 +4,11 @@ The node of a point and the end nodes of its lines share one motion. Fixed and c
 of the forces on all its nodes over the sum of their inertia; riding ones go with their rigid part (rigid.py).
 """
 
+import numpy as np
+
 from .cache import stage
 from .clamps import turn_clamps_with_platform
+from .ground import along_bed
 from .layout import POINT_COUPLED, POINT_FIXED, POINT_FREE, POINT_RIDING
 from .model import LOOSE
 from .platform import cross, platform_at, rotate, turned
@@ -81,22 +84,26 @@ def add_inertia(model, state, scratch, node, matrix):
     tx, ty, tz = t[0, node] + t[0, node + 1], t[1, node] + t[1, node + 1], t[2, node] + t[2, node + 1]
     normal, axial = state.inertia_normal[node], state.inertia_axial[node]
     surplus = (axial - normal) / max(tx * tx + ty * ty + tz * tz, TINY)
-    across, along, nx, ny, nz = 0.0, 0.0, 0.0, 0.0, 1.0
+    push, axial_hold, side, nx, ny, nz, ex, ey, ez = 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0
     if model.ground.on:
-        bed = scratch.bed
-        across, along = scratch.hold[0, node], scratch.hold[1, node]
+        hold, bed = scratch.hold, scratch.bed
+        push, axial_hold, side = hold[0, node], hold[1, node], hold[2, node]
         nx, ny, nz = bed[1, node], bed[2, node], bed[3, node]
+        ex, ey, ez, _, inverse = along_bed(tx, ty, tz, nx, ny, nz)
+        inverse = np.sqrt(inverse * model.ground.directional)
+        ex, ey, ez = inverse * ex, inverse * ey, inverse * ez
     elif state.bed_relief[node] < 1.0:
         step = state.settings[1]
-        across = step * (model.bed_damping[node] + step * model.bed_stiffness[node])
-    more = across - along
+        push = step * (model.bed_damping[node] + step * model.bed_stiffness[node])
+    push -= side
+    axial_hold -= side
     return (
-        matrix[0] + normal + along + surplus * tx * tx + more * nx * nx,
-        matrix[1] + normal + along + surplus * ty * ty + more * ny * ny,
-        matrix[2] + normal + along + surplus * tz * tz + more * nz * nz,
-        matrix[3] + surplus * tx * ty + more * nx * ny,
-        matrix[4] + surplus * tx * tz + more * nx * nz,
-        matrix[5] + surplus * ty * tz + more * ny * nz,
+        matrix[0] + normal + side + surplus * tx * tx + push * nx * nx + axial_hold * ex * ex,
+        matrix[1] + normal + side + surplus * ty * ty + push * ny * ny + axial_hold * ey * ey,
+        matrix[2] + normal + side + surplus * tz * tz + push * nz * nz + axial_hold * ez * ez,
+        matrix[3] + surplus * tx * ty + push * nx * ny + axial_hold * ex * ey,
+        matrix[4] + surplus * tx * tz + push * nx * nz + axial_hold * ex * ez,
+        matrix[5] + surplus * ty * tz + push * ny * nz + axial_hold * ey * ez,
     )
 
 

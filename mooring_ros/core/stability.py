@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .friction import NO_FRICTION
+from .friction import NO_FRICTION, STICK
 from .hinges import stiffness_rows
 from .layout import POINT_COUPLED, POINT_FIXED
 from .model import LOOSE, MOST_JOINTS
@@ -24,6 +24,7 @@ UNDAMPED = 0.15  # rad: undamped modes grow by 0.012 of its fourth power in a st
 LANDING, DEARER = 5.0, 1.7  # of the bed's damping time: steps in which nodes land softly; times the cost of the schemes of several stages that `AXIAL` may have then
 LONGEST = 4.0  # times the step that is right for accuracy: the longest of the scheme `AXIAL` that is taken when it is asked for
 PACE, PASSING = 0.004, 0.11  # of sqrt(L/g) and of L/c, for the scheme `AXIAL`: 0.2 % of the dynamic tension on the OC4 chains
+STICKING = 0.5  # of the stable step, with the law `stick`: longer ones kick stiff lines that are held at their touchdown
 ACCURACY = 0.66  # of count / w = L / (2 c): 0.3 % of the dynamic tension on the OC4 chains (docs/measurements.md)
 
 
@@ -91,6 +92,8 @@ def step_limit(scene, model, end_point, dt=None):
     few = LEAPFROG in usable and not undamped  # steps of a few segments may be stable and yet not follow their first mode
     accurate = accuracy if few and accuracy > 0.0 else max(accuracy, SAFETY * min(usable.values()))
     longest = min(stable, LONGEST * accurate if AXIAL in usable else accurate)
+    if model.ground.law == STICK and STICKING * stable < accurate:
+        accurate, by = STICKING * stable, "bed friction that sticks"
     if dt is not None and dt < longest:
         return StepLimit(float(dt), "dt", limits, usable)
     if dt is not None:

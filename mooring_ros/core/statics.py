@@ -86,6 +86,7 @@ class StaticSolver:
         state.twist[:] = 0.0
         state.acceleration_of_platform[:] = 0.0
         state.velocity[:] = 0.0
+        state.expected[:] = 0.0
         state.lead[:] = 0.0
         state.wet[:] = 1.0
         calm(state.window_times, state.window)
@@ -169,7 +170,7 @@ class StaticSolver:
             self._equations = Equations(self.model, self._freedom, self._pattern, self.weight)
         self._bed = scratch.bed
         state.settings[:6] = (0.0, 0.0, 1.0, 1.0, 0.0, np.inf)
-        state.settings[7], state.settings[8] = 1.0, 0.0
+        state.settings[7], state.settings[8:] = 1.0, 0.0
         state.bed_relief[:] = 1.0
         return max(self.tolerance, self._rounding(state))
 

@@ -9,8 +9,12 @@ TINY = 1e-200  # m^2: keeps coincident nodes from dividing by zero
 
 @stage
 def segment_tensions(model, state):
-    """T = EA (L/l - 1) + BA (dL/dt)/l, never negative; a slack segment (L <= l) carries none, damping included."""
-    position, velocity = state.position, state.velocity
+    """T = EA (L/l - 1) + BA (dL/dt)/l, never negative; a slack segment (L <= l) carries none, damping included.
+
+    Where velocities stand back from places by the time settings[9], the present tangent sees a part of the turning as a rate of length; this part,
+    the time by the square of the turning speed over L, is taken off.
+    """
+    position, velocity, back = state.position, state.velocity, state.settings[9]
     x, y, z = position[0], position[1], position[2]
     u, v, w = velocity[0], velocity[1], velocity[2]
     qx, qy, qz = state.tangent[0], state.tangent[1], state.tangent[2]
@@ -21,7 +25,9 @@ def segment_tensions(model, state):
         length = np.sqrt(max(dx * dx + dy * dy + dz * dz, TINY))
         scale = live[i + 1] / length
         tx, ty, tz = dx * scale, dy * scale, dz * scale
-        rate = tx * (u[i + 1] - u[i]) + ty * (v[i + 1] - v[i]) + tz * (w[i + 1] - w[i])
+        du, dv, dw = u[i + 1] - u[i], v[i + 1] - v[i], w[i + 1] - w[i]
+        rate = tx * du + ty * dv + tz * dw
+        rate -= back * (du * du + dv * dv + dw * dw - rate * rate) / length
         strain = length * inverse_length[i + 1] - 1.0
         pull = max(stiffness[i + 1] * strain + damping[i + 1] * rate, 0.0)
         tension[i + 1] = pull if strain > 0.0 else 0.0

@@ -36,7 +36,7 @@ class Bar:
         self.held = np.arange(n) < (1 if held else 0)
         self.position, self.velocity = np.zeros((3, n + 1)), np.zeros((3, n + 1))
         self.position[:, :n] = self.heading[:, None] * np.arange(n) * self.segment
-        self.bed, self.grip, self.hold = np.zeros((4, n + 1)), np.full((4, n + 1), -1.0), np.zeros((2, n + 1))
+        self.bed, self.grip, self.hold = np.zeros((4, n + 1)), np.full((4, n + 1), -1.0), np.zeros((3, n + 1))
         self.tangent, self.tension = np.zeros((3, n + 1)), np.zeros(n + 1)
         self.force = np.zeros((3, n + 1))
         self.sink()
@@ -81,6 +81,7 @@ class Bar:
             self.slaved,
             self.bed,
             self.grip,
+            np.zeros((3, n + 1)),
             self.force,
             self.hold,
         )

@@ -20,7 +20,7 @@ class Nodes:
         self.stiffness, self.damping = STIFFNESS * rng.uniform(0.5, 2.0, n), DAMPING * rng.uniform(0.5, 2.0, n)
         self.normal, self.axial = rng.uniform(100.0, 500.0, (2, n))
         self.slaved = np.zeros(n, dtype=bool)
-        self.bed, self.hold = np.zeros((4, n + 1)), np.zeros((2, n + 1))
+        self.bed, self.hold = np.zeros((4, n + 1)), np.zeros((3, n + 1))
         self.bed[:, :n] = bed_at(ground, self.position[0, :n], self.position[1, :n])
         self.position[2, :n] = self.bed[0, :n] + rng.uniform(-deep, 0.5 * deep, n)
         # every second segment is null, so that every node has a direction of its own
@@ -29,6 +29,7 @@ class Nodes:
             direction -= (direction * self.bed[1:, :n]).sum(axis=0) * self.bed[1:, :n]
         self.direction = direction / np.sqrt((direction**2).sum(axis=0))
         self.grip = np.full((4, n + 1), -1.0)
+        self.expected = np.zeros((3, n + 1))
 
     @property
     def n_hat(self):
@@ -49,7 +50,7 @@ class Nodes:
             tangent[:, chosen] = self.direction[:, chosen]
             force = np.zeros((3, n + 1))
             force[:, :n] = self.load
-            hold = np.zeros((2, n + 1))
+            hold = np.zeros((3, n + 1))
             contact(
                 self.ground,
                 n,
@@ -64,6 +65,7 @@ class Nodes:
                 self.slaved,
                 self.bed,
                 self.grip,
+                self.expected,
                 force,
                 hold,
             )

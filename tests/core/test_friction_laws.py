@@ -129,13 +129,33 @@ def test_a_shared_node_gets_the_law_at_its_place_and_speed_and_what_it_adds_to_t
         push = np.where(nodes.depth > 0.0, np.maximum(nodes.stiffness * nodes.depth - resist * nodes.along_normal(velocity), 0.0), 0.0)
         assert np.abs(push_of(nodes, force) - push).max() < 1e-9 * push.max()
         assert np.abs(nodes.hold[0, : nodes.n] - np.where(push > 0.0, step * resist, 0.0)).max() < 1e-9
-        held = nodes.hold[1, : nodes.n]
-        assert (held[push > 0.0] > 0.0).all() and not held[push == 0.0].any()
+        for held in nodes.hold[1:, : nodes.n]:
+            assert (held[push > 0.0] > 0.0).all() and not held[push == 0.0].any()
         if law == "stick":  # inside the ellipse
             ratio = nodes.ground.stiffness_ratio
             stuck = (load_of(nodes, nodes.in_plane(force), np.where(push > 0.0, push, np.inf)) < 0.999) & (push > 0.0)
             assert stuck.any()
-            assert held[stuck] == pytest.approx((step * (np.sqrt(ratio) * nodes.damping + step * ratio * nodes.stiffness))[stuck])
+            for held in nodes.hold[1:, : nodes.n]:
+                assert held[stuck] == pytest.approx((step * (np.sqrt(ratio) * nodes.damping + step * ratio * nodes.stiffness))[stuck])
+
+
+def test_saturated_friction_of_a_shared_node_is_that_of_the_speed_expected_of_it_in_each_direction():
+    """Whatever it now has: what starts to slide along the line is not held by what sticks across it."""
+    step = 1e-2
+    nodes = Nodes(ground("saturated"), n=2000, speed=0.01, flat=True)
+    nodes.slaved[:] = True
+    nodes.expected[:, : nodes.n] = np.random.default_rng(5).normal(0.0, 10.0, (3, nodes.n))
+    force = nodes.forces(step)
+    push = push_of(nodes, force)
+    pressed = push > 0.0
+    after = nodes.in_plane(nodes.velocity[:, : nodes.n] + step * nodes.expected[:, : nodes.n])
+    gains = nodes.split(nodes.in_plane(nodes.expected[:, : nodes.n]))
+    holds = nodes.hold[1, : nodes.n], nodes.hold[2, : nodes.n]
+    for part, gain, hold, speed, static, kinetic in zip(nodes.split(nodes.in_plane(force)), gains, holds, nodes.split(after), STATIC, KINETIC):
+        friction = np.atleast_2d(part - hold * gain)[:, pressed]
+        expected, sliding = saturated(np.atleast_2d(speed)[:, pressed], push[pressed], static, kinetic)
+        either = np.abs(friction - expected).max(axis=0) < 1e-9 * norms(force).max()
+        assert either[sliding].mean() > 0.99 and sliding.mean() > 0.3
 
 
 def pulled(nodes, place, push):

@@ -226,3 +226,19 @@ def test_padding_and_points_never_disturb_a_line():
     np.testing.assert_array_equal(forces[0], forces[1])
 
 
+
+
+def test_turning_is_no_rate_of_length_where_velocities_stand_half_a_step_behind():
+    step, angle = 0.02, 0.01
+    model, state, scratch = random_state(three_lines(), seed=3)
+    live = np.flatnonzero(model.live[: model.size])
+    c, s = np.cos(angle), np.sin(angle)
+    before = state.position.copy()
+    state.position[:2] = np.array([[c, -s], [s, c]]) @ before[:2]
+    state.velocity[:] = (state.position - before) / step
+    rates = []
+    for back in (0.0, 0.5 * step):
+        state.settings[9] = back
+        evaluate_once(model, state, scratch, 0.0, 0.0, True)
+        rates.append(np.abs(state.strain_rate[live]).max())
+    assert rates[1] < 1e-4 * rates[0]

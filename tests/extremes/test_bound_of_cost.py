@@ -8,7 +8,8 @@ from mooring_ros import Mooring, MooringError
 from mooring_ros.core import explicit
 from mooring_ros.core.schemes import AXIAL
 
-MOST = 2.0 * explicit.FINEST - 1.0  # 1 + 2 + 4 + ... + FINEST times the evaluations of an interval without any trouble
+# times the evaluations of an interval without any trouble: MOST_REFINED at once for a hasty platform, and twice that in each try, never more than FINEST
+MOST = sum(min(explicit.MOST_REFINED * 2.0**tries, explicit.FINEST) for tries in range(7))
 
 
 def plain_evaluations(mooring, duration):
