@@ -33,9 +33,9 @@ class Status(NamedTuple):
 class Peer:
     """Publishes Odometry and listens, each topic in a thread of its own. heard: list of Heard; statuses: list of Status, in order of arrival."""
 
-    def __init__(self, domain, node="/mooring"):
+    def __init__(self, domain, reliability="reliable", node="/mooring"):
         self._node = rosless.Node(domain=domain)
-        self.odometry = self.publisher("/platform/odom", ODOMETRY)
+        self.odometry = self._node.advertise("/platform/odom", ODOMETRY, reliability=reliability, depth=1000)
         self.heard, self.statuses = [], []
         self._news = threading.Condition()
         self._open = True
@@ -52,7 +52,9 @@ class Peer:
             if time.monotonic() > end or not alive():
                 raise TimeoutError("no node subscribes to /platform/odom" + ("" if alive() else ": it has ended"))
             time.sleep(0.01)
-        time.sleep(0.3)     # discovery is one-sided for a moment
+        # Discovery is one-sided for a moment: who hears the node's diagnostics will hear its wrenches.
+        self.wait(lambda: self.statuses, 3.0)
+        time.sleep(0.3)
 
     def wait(self, condition, timeout):
         """Until condition() is true; returns its result, or its last one (false) after timeout (s)."""

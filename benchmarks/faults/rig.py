@@ -26,11 +26,11 @@ def free_domain():
 class Rig:
     """A context: inside, the node runs. stamp: ns of the next good sample. shown: what diagnostics said, (status, words, s after the fault)."""
 
-    def __init__(self, parameters=None, file_size=None, folder=None, domain=None):
+    def __init__(self, parameters=None, file_size=None, folder=None, reliability="reliable"):
         self._temporary = None if folder else tempfile.TemporaryDirectory(prefix="mooring_faults_")
         self.folder = folder or self._temporary.name
         self._parameters, self._file_size = parameters or {}, file_size
-        self.domain = free_domain() if domain is None else domain
+        self.domain, self._reliability = free_domain(), reliability
         self.judge = Judge(SCENE)
         self.stamp, self._offset = BEGIN, 0
         self._judged = 0
@@ -39,7 +39,7 @@ class Rig:
 
     def __enter__(self):
         self.launch()
-        self.peer, self.services = Peer(self.domain), Services(self.domain)
+        self.peer, self.services = Peer(self.domain, self._reliability), Services(self.domain)
         try:
             self.peer.wait_for_node(lambda: self.process.alive)
         except BaseException as error:

@@ -1,6 +1,6 @@
-"""A simulator as a process of its own, which knows no lockstep: `python -m benchmarks.faults.simulator DOMAIN SHIFT`.
+"""A simulator as a process of its own, which knows no lockstep: `python -m benchmarks.faults.simulator DOMAIN BEGIN SHIFT`.
 
-Sends the motion of `motion.at` at 50 Hz from the first stamp on, displaced by SHIFT (m), and says each stamp on its standard output.
+Sends the motion of `motion.at` at 50 Hz from the stamp BEGIN (ns) on, displaced by SHIFT (m), and says each stamp on its standard output.
 """
 import sys
 import time
@@ -8,16 +8,16 @@ import time
 import rosless
 
 from . import motion
-from .rig import BEGIN, STEP
+from .rig import STEP
 
 
-def main(domain, shift):
+def main(domain, begin, shift):
     """Send until killed."""
     odometry = rosless.Node(domain=domain).advertise("/platform/odom", "nav_msgs/msg/Odometry", reliability="reliable", depth=1000)
     while not odometry.subscriber_count:
         time.sleep(0.01)
     time.sleep(0.3)     # discovery is one-sided for a moment
-    stamp, due = BEGIN, time.monotonic()
+    stamp, due = begin, time.monotonic()
     while True:
         state = motion.at(stamp * 1e-9)
         x, *rest = state.pose
@@ -29,4 +29,4 @@ def main(domain, shift):
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]), float(sys.argv[2]))
+    main(int(sys.argv[1]), int(sys.argv[2]), float(sys.argv[3]))

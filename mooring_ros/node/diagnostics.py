@@ -71,7 +71,7 @@ class Diagnostics:
         if session.check is not None and session.check.verdict.kind == WRONG:
             level, words = ERROR, session.check.verdict.text
         if publishers > 1:
-            level, words = max(level, WARN), f"{publishers} publishers of the platform's motion, expected one; {words}"
+            level, words = max(level, WARN), f"{publishers} publishers of the platform's motion are known, expected one; {words}"
         return self._status("input", level, words, values)
 
     @staticmethod
