@@ -177,6 +177,10 @@ class MixedMooring(Mooring):
         return self._fullest.pose
 
     @property
+    def platform_of_coupled(self):
+        return [0] * len(self.coupled_names)
+
+    @property
     def pose_in_file(self):
         return self._fullest.pose_in_file
 

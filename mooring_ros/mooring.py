@@ -316,6 +316,11 @@ class Mooring:
         return self._platforms.outside(self._state.pose).copy()
 
     @property
+    def platform_of_coupled(self):
+        """Which platform each of `coupled_names` is on, a list of numbers from 0."""
+        return self._model.point_platform[self._model.output_point].tolist()
+
+    @property
     def pose_in_file(self):
         """(7,) or (platforms, 7): where the file puts the platforms, zero when they have no names."""
         return self._platforms.pose_in_file.copy()

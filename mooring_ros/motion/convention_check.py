@@ -43,6 +43,10 @@ class ConventionCheck:
         self._count = 0
         self.verdict = Verdict(UNDECIDED, "twist not checked yet: not enough motion to tell")
 
+    def anew(self):
+        """A check that begins again."""
+        return ConventionCheck(self._adapter)
+
     @property
     def moved(self):
         """Whether the platform has moved enough to tell."""
@@ -51,6 +55,10 @@ class ConventionCheck:
     @property
     def finished(self):
         return self.verdict.kind in (WRONG, MISSING) or self._count >= _MOST_INTERVALS
+
+    def look_at(self, motion, sample):
+        """Take one accepted Motion and the Sample that it is from; returns the verdict."""
+        return self.add(motion.time, motion.pose, sample.twist, sample.twist_frame)
 
     def add(self, stamp, pose, raw_twist, twist_frame=None):
         """Take one accepted sample: stamp ns, pose (7,) inside, raw_twist (6,) as the source gave it; returns the verdict."""

@@ -80,6 +80,15 @@ class Motion(NamedTuple):
         """When the platform was there, ns by the source's clock."""
         return self.stamp if self.frame_time is None else self.frame_time
 
+    @property
+    def first(self):
+        """Pose and twist of the platform, or of the first of several (ensemble.py)."""
+        return self.pose, self.twist
+
+    def ahead(self, seconds):
+        """Pose and twist some seconds (inside) later."""
+        return carry_on(self.pose, self.twist, seconds, self.acceleration)
+
 
 class Velocity(NamedTuple):
     """How twists are made of poses, and how bunched stamps are put right.
@@ -108,8 +117,10 @@ class Gate:
     received, accepted: counts. rejected: Counter of REASONS. cause: words for the last refusal. frame, child_frame: as given by the
     parameters, else pinned to those of the first accepted sample ("" in a message means not said, and is let through). bridged: frames without a pose
     over which the motion was carried on. velocity: see Velocity. resets: what tells a simulation's reset from a reordered sample (node.resets), or None.
-    restarts: resets after which a new motion was begun.
+    restarts: resets after which a new motion was begun. missing: whom a gate of several waits for (ensemble.py); one waits for nobody.
     """
+
+    missing = ""
 
     def __init__(self, adapter, limits=None, world_frame="", platform_frame="", velocity=Velocity(), resets=None):
         self.adapter = adapter

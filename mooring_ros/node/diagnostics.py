@@ -50,11 +50,13 @@ class Diagnostics:
         values = {"received": gate.received, "accepted": gate.accepted, "rejected": rejected,
                   **{reason: gate.rejected[reason] for reason in REASONS}, "last rejection": gate.cause,
                   **self._steps_in(session), **self._frames(gate), "world frame": gate.frame, "platform frame": gate.child_frame}
+        if gate.missing:
+            values["waits for"] = gate.missing.removeprefix("; ")
         fresh_rejection = self._grew("rejected", rejected, now)
         fresh_input = self._grew("accepted", gate.accepted, now)
         level, words = OK, f"{gate.accepted} samples"
         if session.state == IDLE:
-            level, words = WARN, f"waiting: {session.states.cause}"
+            level, words = WARN, f"waiting: {session.states.cause}{gate.missing}"
         if session.check is not None:
             verdict = session.check.verdict
             values["twist check"] = verdict.text

@@ -18,14 +18,13 @@ class FullScale:
     def __init__(self, mooring, adapter, wrench_frame="world", world_frame="world"):
         self._messages = messages.Messages(mooring, dataclasses.replace(adapter, scale=1.0, density_ratio=1.0), wrench_frame, world_frame)
         self._factors = np.repeat([1.0 / adapter.force_factor, 1.0 / adapter.moment_factor], 3)
-        self._coupled = [messages.fairlead_topic(PREFIX, name) for name in mooring.coupled_names]
-        self.topics = {f"{PREFIX}/wrench": messages.WRENCH, **dict.fromkeys(self._coupled, messages.WRENCH),
-                       f"{PREFIX}/lines": messages.JOINT_STATE, f"{PREFIX}/line_tensions": messages.FLOAT_ARRAY}
+        self._wrenches = [*messages.total_topics(PREFIX, mooring.platforms), *(messages.fairlead_topic(PREFIX, name) for name in mooring.coupled_names)]
+        self.topics = {**dict.fromkeys(self._wrenches, messages.WRENCH), f"{PREFIX}/lines": messages.JOINT_STATE, f"{PREFIX}/line_tensions": messages.FLOAT_ARRAY}
 
     def wrenches(self, stamp, wrenches):
-        """(name, type name, bytes) of the wrenches (1 + coupled, 6) as they went out at the source's scale."""
-        for name, wrench in zip((f"{PREFIX}/wrench", *self._coupled), wrenches * self._factors):
-            yield name, messages.WRENCH, self._messages.wrench(stamp, wrench)
+        """(name, type name, bytes) of the wrenches (platforms + coupled, 6) as they went out at the source's scale."""
+        for row, (name, wrench) in enumerate(zip(self._wrenches, wrenches * self._factors)):
+            yield name, messages.WRENCH, self._messages.wrench(stamp, wrench, row)
 
     def lines(self, stamp, mooring):
         """(name, type name, bytes) of the lines' lengths and tensions."""

@@ -16,24 +16,24 @@ DEPTH = 100
 
 
 class Inputs:
-    """Subscribes to what `input` names.
+    """Subscribes to what `input` names, below `platform`.
 
     gate: counts what never becomes a sample. take: called with (sample, topic, type name, bytes, stamp) for each message; the sample is None
     for one that completes none. topics: name -> type name. best_effort: names of the topics that are listened to without asking for what was lost.
     """
 
-    def __init__(self, node, kind, twist_frame, gate, take):
+    def __init__(self, node, kind, twist_frame, gate, take, platform="platform"):
         self._node, self._gate, self._take = node, gate, take
         self._pairs = Pairs(twist_frame) if kind == "pose_twist" else None
         self.topics = {}
         self.best_effort = []
         self._subscriptions, self._ways, self._heard = [], {}, set()
         if kind == "odometry":
-            self._subscribe(Odometry, "platform/odom", ODOMETRY, self._odometry)
+            self._subscribe(Odometry, f"{platform}/odom", ODOMETRY, self._odometry)
         else:
-            self._subscribe(PoseStamped, "platform/pose", POSE, self._pose)
+            self._subscribe(PoseStamped, f"{platform}/pose", POSE, self._pose)
         if kind == "pose_twist":
-            self._subscribe(TwistStamped, "platform/twist", TWIST, self._twist)
+            self._subscribe(TwistStamped, f"{platform}/twist", TWIST, self._twist)
 
     def destroy(self):
         """End all subscriptions."""

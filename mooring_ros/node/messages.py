@@ -15,10 +15,15 @@ NODE_FIELDS = ("x", "y", "z", "tension", "curvature", "line", "node")
 _FLOAT_SIZE = 4
 
 
-def topics(node, coupled_names):
-    """Topic -> type of the answers of the node with this fully qualified name, "~" for names relative to it."""
-    return {f"{node}/wrench": WRENCH, **{fairlead_topic(node, name): WRENCH for name in coupled_names},
+def topics(node, coupled_names, platforms=None):
+    """Topic -> type of the answers of the node with this fully qualified name, "~" for names relative to it. platforms: their names, where they have any."""
+    return {**dict.fromkeys(total_topics(node, platforms), WRENCH), **{fairlead_topic(node, name): WRENCH for name in coupled_names},
             f"{node}/lines": JOINT_STATE, f"{node}/line_tensions": FLOAT_ARRAY, f"{node}/nodes": POINT_CLOUD}
+
+
+def total_topics(node, platforms):
+    """Topics of the wrenches on the platforms, with their names, or of the one that has none."""
+    return [f"{node}/wrench"] if platforms is None else [f"{node}/platforms/{name}/wrench" for name in platforms]
 
 
 def fairlead_topic(node, coupled_name):
@@ -34,14 +39,17 @@ def floats(values):
 class Messages:
     """The answers of one mooring as serialized messages.
 
-    mooring: a `Mooring`, for its names and numbers of nodes. wrench_frame, world_frame: frame ids of the wrenches and of the rest.
+    mooring: a `Mooring`, for its names and numbers of nodes. wrench_frame, world_frame: frame ids of the wrenches and of the rest; of several platforms
+    a wrench_frame for each. Rows of wrenches are those on the platforms, then those at what is coupled.
     adapter: a `motion.Adapter`; it turns what is inside into the source's axes, convention and scale.
     """
 
     def __init__(self, mooring, adapter, wrench_frame="world", world_frame="world"):
         self._adapter = adapter
         self._line_names = list(mooring.line_names)
-        self._wrench = _wrench_template(wrench_frame)
+        frames = [wrench_frame] if isinstance(wrench_frame, str) else wrench_frame
+        self._wrench = [_wrench_template(frame) for frame in frames]
+        self._platform_of = [*range(len(frames)), *mooring.platform_of_coupled] if len(frames) > 1 else None  # of each row of wrenches
         self._lines = _lines_template(self._line_names, world_frame)
         self._line_tensions = _line_tensions_template(len(self._line_names))
         sizes = [segments + 1 for segments in mooring.segments]
@@ -52,12 +60,18 @@ class Messages:
         self._ends = np.cumsum([0, *sizes])
 
     def wrenches(self, wrenches, pose):
-        """Wrenches (k, 6), inside and in world axes, as they go out: the source's axes, convention and scale. pose: inside."""
-        return self._adapter.wrenches_out(wrenches, pose)
+        """Wrenches (k, 6), inside and in world axes, as they go out: the source's axes, convention and scale. pose: inside, (7,) or (platforms, 7)."""
+        if self._platform_of is None:
+            return self._adapter.wrenches_out(wrenches, np.reshape(pose, 7))
+        out = np.empty_like(wrenches)
+        for platform, own in enumerate(pose):
+            rows = np.equal(self._platform_of, platform)
+            out[rows] = self._adapter.wrenches_out(wrenches[rows], own)
+        return out
 
-    def wrench(self, stamp, wrench):
-        """WrenchStamped of a wrench (6,) as it goes out."""
-        return self._wrench.fill(stamp, wrench)
+    def wrench(self, stamp, wrench, row=0):
+        """WrenchStamped of a wrench (6,) as it goes out, that of this row."""
+        return self._wrench[self._platform_of[row] if self._platform_of else 0].fill(stamp, wrench)
 
     def lines(self, stamp, mooring):
         """JointState: stretched length (m), its rate (m/s) and fairlead tension (N) of each line."""

@@ -13,6 +13,7 @@ from std_srvs.srv import Trigger
 
 from mooring_ros.mooring import Mooring, MooringError
 from mooring_ros.motion import Adapter, ConventionCheck, Gate, Limits, Velocity
+from mooring_ros.motion.ensemble import Checks, Ensemble
 from mooring_ros.node import live, parameters, realtime
 from mooring_ros.node.accuracy import Companion, report
 from mooring_ros.node.diagnostics import WARN, Diagnostics, fingerprint
@@ -20,6 +21,7 @@ from mooring_ros.node.heartbeat import Heartbeat
 from mooring_ros.node.inputs import Inputs
 from mooring_ros.node.output import Output
 from mooring_ros.node.outputs import Outputs
+from mooring_ros.node.platforms import AllInputs, AllResets, refuse
 from mooring_ros.node.punctuality import Punctuality
 from mooring_ros.node.reports import Reports
 from mooring_ros.node.resets import Resets
@@ -97,13 +99,11 @@ class MooringNode(LifecycleNode):
     def on_activate(self, state):
         """Start a session: the first good sample settles. Subscriptions are made now, so being subscribed to says that it is active."""
         values = parameters.values(self)
-        check = None if values["input"] == "pose" else ConventionCheck(self._adapter)
-        self._resets = Resets(values["on_reset"])
-        gate = Gate(self._adapter, Limits(), values["world_frame"], values["platform_frame"], _velocity(values), self._resets)
-        self._session = Session(self._mooring, gate, Output(), check, self._watch_now)
+        gate, check = self._make_gate(values)
+        self._session = Session(self._mooring, gate, Output(totals=len(self._mooring.platforms or (None,))), check, self._watch_now)
         self._refused = self._restarts = 0
         self._pace = Pace()
-        if values["accuracy.enabled"]:
+        if values["accuracy.enabled"] and not self._mooring.platforms:
             self._companion = Companion(self._mooring, self._settings, values["accuracy.share"], values["accuracy.window"])
         timer = values["timing.mode"] == "timer"
         # Simulated deadlines come from a timer on that clock, which may be early; steady ones are the loop's (loop.py).
@@ -113,7 +113,7 @@ class MooringNode(LifecycleNode):
             self._timer = self.create_timer(1.0 / values["timing.rate"], self.cycle if timer else self._look,
                                             clock=self.get_clock() if self._simulated else self._steady)
         self._apply_live_parameters()
-        self._inputs = Inputs(self, values["input"], values["twist_frame"], gate, self._take)
+        self._inputs = (AllInputs if self._mooring.platforms else Inputs)(self, values["input"], values["twist_frame"], gate, self._take)
         self._winch = Winch(self, self._wind)
         self._heartbeat = Heartbeat(self, self._session.beat)
         # Nothing of this start is garbage, and a collection in the middle of an answer would delay it: from here on, once a second.
@@ -149,14 +149,28 @@ class MooringNode(LifecycleNode):
         self._problem = self._problem or "a transition failed, see the log"
         return super().on_error(state)
 
+    def _make_gate(self, values):
+        """(gate, check of the convention or None) of one platform, or of several."""
+        names = self._mooring.platforms
+        if names:
+            self._resets = AllResets(values["on_reset"], len(names))
+            gate = Ensemble(names, self._adapter, Limits(), values["world_frame"], _velocity(values), self._resets)
+        else:
+            self._resets = Resets(values["on_reset"])
+            gate = Gate(self._adapter, Limits(), values["world_frame"], values["platform_frame"], _velocity(values), self._resets)
+        if values["input"] == "pose":
+            return gate, None
+        return gate, Checks(gate) if names else ConventionCheck(self._adapter)
+
     def _configure(self):
         values = parameters.values(self)
+        refuse(values)
         if not values["scene"]:
             raise ValueError("parameter scene is empty, expected the path of a MoorDyn v2 input file")
         scene = load_scene(values["scene"])
         for name in parameters.unknown(self):
             self.get_logger().warning(f"there is no parameter {name}: it is not used")
-        settings = {name: values[name] for name in ("fidelity", "solver", "refine")} | {name: values[name] or None for name in ("dt", "segments")}
+        settings = {name: values[name] for name in ("fidelity", "solver", "refine")} | {name: values[name] or None for name in ("dt", "segments", "platforms")}
         begin = time.monotonic()
         self._warm_up(Mooring(scene, **settings))
         self.get_logger().info(f"compiled in {time.monotonic() - begin:.1f} s")
@@ -174,10 +188,10 @@ class MooringNode(LifecycleNode):
     def _warm_up(self, mooring):
         """Run on a mooring that is thrown away what a live one will run, so that everything is compiled."""
         try:
-            pose = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
+            pose = mooring.pose_in_file
             mooring.settle(pose)
             for k in range(1, 4):
-                mooring.step(0.01 * k, pose, np.zeros(6))
+                mooring.step(0.01 * k, pose, np.zeros((*pose.shape[:-1], 6)))
         except MooringError as error:
             self.get_logger().warning(f"the scene cannot be solved at the platform's zero pose: {error}")
 

@@ -33,7 +33,7 @@ class Outputs:
         self.visual_rate = visual_rate
         self._shown = None
         self._publishers = {}
-        self._wrench = self._publisher(WrenchStamped, messages.WRENCH, "~/wrench")
+        self._totals = [self._publisher(WrenchStamped, messages.WRENCH, topic) for topic in messages.total_topics("~", mooring.platforms)]
         self._fairleads = [self._publisher(WrenchStamped, messages.WRENCH, messages.fairlead_topic("~", name))
                            for name in mooring.coupled_names]
         self._lines = self._publisher(JointState, messages.JOINT_STATE, "~/lines")
@@ -45,42 +45,42 @@ class Outputs:
         self._delay = self._publisher(Float64MultiArray, messages.FLOAT_ARRAY, DELAY_TOPIC)
         self._full_scale = FullScale(mooring, adapter) if full_scale else None
         self._full = {name: self._publisher(_TYPES[type_name], type_name, f"~/{name}") for name, type_name in self._full_scale.topics.items()} if full_scale else {}
-        slot = placeholder(schedule.LENGTH)
+        slot = placeholder(schedule.size(mooring.platforms))
         self._schedule = Template(Float64MultiArray(data=messages.floats(slot)), [slot])
         self._steps_topic = node.get_fully_qualified_name() + schedule.TOPIC_SUFFIX
         self._declare(self._steps_topic, schedule.TYPE_NAME)
         self._messages = self._marker_messages = self._frames = None
 
     def use_frames(self, world_frame, platform_frame):
-        """Name the frames in the headers; called again when they are known from the input."""
+        """Name the frames in the headers, platform_frame a tuple for several platforms; called again when they are known from the input."""
         if (world_frame, platform_frame) == self._frames:
             return
         self._frames = world_frame, platform_frame
         world = world_frame or "world"
-        wrench_frame = world if self._adapter.wrench_frame == "world" else platform_frame or "platform"
+        own = [platform_frame or "platform"] if isinstance(platform_frame, str) else [
+            frame or name for frame, name in zip(platform_frame, self._mooring.platforms)]
+        wrench_frame = [world] * len(own) if self._adapter.wrench_frame == "world" else own
         self._messages = messages.Messages(self._mooring, self._adapter, wrench_frame, world)
         self._marker_messages = Markers(self._mooring, self._adapter, world)
         if self._full_scale is not None:
             self._full_scale = FullScale(self._mooring, self._adapter, wrench_frame, world)
 
     def answer(self, stamp, session):
-        """Publish the total wrench; returns what `follow` needs to go on."""
+        """Publish the total wrenches; returns what `follow` needs to go on."""
         wrenches = self._messages.wrenches(session.wrenches, self._mooring.pose)
-        data = self._messages.wrench(stamp, wrenches[0])
-        self._wrench.publish(data)
-        return wrenches, data
+        totals = []
+        for row, publisher in enumerate(self._totals):
+            totals.append(self._messages.wrench(stamp, wrenches[row], row))
+            publisher.publish(totals[-1])
+        return wrenches, totals
 
     def follow(self, stamp, answered):
         """Publish the rest of the answer, and record all of it."""
-        wrenches, data = answered
-        if self._recorder is not None:
-            self._record(self._wrench, data, stamp)
-        for publisher, wrench in zip(self._fairleads, wrenches[1:]):
-            self._send(publisher, self._messages.wrench(stamp, wrench), stamp)
+        self._follow_wrenches(stamp, answered, stamp)
         self._send(self._lines, self._messages.lines(stamp, self._mooring), stamp)
         self._send(self._line_tensions, self._messages.line_tensions(self._mooring), stamp)
         if self._full_scale is not None:
-            for name, _, data in (*self._full_scale.wrenches(stamp, wrenches), *self._full_scale.lines(stamp, self._mooring)):
+            for name, _, data in (*self._full_scale.wrenches(stamp, answered[0]), *self._full_scale.lines(stamp, self._mooring)):
                 self._send(self._full[name], data, stamp)
         if self._due(stamp):
             if self._wanted(self._nodes):
@@ -97,18 +97,22 @@ class Outputs:
 
     def repeat(self, stamp, answered, time):
         """Publish the wrenches at the coupled points where the core stands still, and record them and the total at time (ns)."""
-        wrenches, data = answered
-        if self._recorder is not None:
-            self._record(self._wrench, data, time)
-        for publisher, wrench in zip(self._fairleads, wrenches[1:]):
-            self._send(publisher, self._messages.wrench(stamp, wrench), time)
+        self._follow_wrenches(stamp, answered, time)
         if self._full_scale is not None:
-            for name, _, data in self._full_scale.wrenches(stamp, wrenches):
+            for name, _, data in self._full_scale.wrenches(stamp, answered[0]):
                 self._send(self._full[name], data, time)
 
     def tell_delay(self, numbers, time):
         """Publish numbers of delay.FIELDS, and record them at time (ns)."""
         self._send(self._delay, delay_message(numbers), time)
+
+    def _follow_wrenches(self, stamp, answered, time):
+        wrenches, totals = answered
+        if self._recorder is not None:
+            for publisher, data in zip(self._totals, totals):
+                self._record(publisher, data, time)
+        for row, publisher in enumerate(self._fairleads, len(totals)):
+            self._send(publisher, self._messages.wrench(stamp, wrenches[row], row), time)
 
     def record_input(self, topic, type_name, data, log_time, publish_time):
         """Record a message as it was received. Times: ns."""

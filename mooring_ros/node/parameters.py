@@ -9,6 +9,7 @@ from rclpy.parameter import Parameter
 from mooring_ros.fidelity import EXPECTED, check
 from mooring_ros.mooring import SOLVERS
 from mooring_ros.motion.frames import CONVENTIONS, TWIST_FRAMES, WRENCH_FRAMES
+from mooring_ros.node.platforms import name_list
 from mooring_ros.node.punctuality import DEFAULTS, GRADES, UNITS
 from mooring_ros.node.resets import POLICIES
 from mooring_ros.node.output import RAMP_FROM
@@ -39,6 +40,8 @@ class Entry:
 TABLE = (
     Entry("autostart", True, "Configure and activate at start, without a lifecycle manager.", fixed=True),
     Entry("scene", "", "Path of the MoorDyn v2 input file.", fixed=True),
+    Entry("platforms", [], "Names of coupled bodies that move by themselves, each on topics platforms/NAME/...; empty: all that is coupled rides on one platform.",
+          fixed=True, check=name_list, expected="names of coupled bodies"),
     Entry("fidelity", "dynamic", "Model of the lines, of all or line by line.", fixed=True, check=check, expected=EXPECTED),
     Entry("solver", "auto", "Time integration of the dynamic lines.", fixed=True, choices=SOLVERS),
     Entry("dt", 0.0, "Internal time step (s); 0: chosen from the stability limits of the scene.", fixed=True, high=1e3),
@@ -121,7 +124,7 @@ def values(node):
 
 def _descriptor(entry):
     words = entry.description + (" Fixed while configured." if entry.fixed else "")
-    descriptor = ParameterDescriptor(description=words)
+    descriptor = ParameterDescriptor(description=words, dynamic_typing=isinstance(entry.default, list))  # an empty list has no type
     if entry.choices:
         descriptor.additional_constraints = "one of " + ", ".join(entry.choices)
     if entry.expected:

@@ -5,7 +5,6 @@ import time
 import numpy as np
 
 from mooring_ros.mooring import MooringError
-from mooring_ros.motion import carry_on
 from mooring_ros.motion.convention_check import WRONG
 from mooring_ros.node.delay import Delay, Frequency
 from mooring_ros.node.states import ASKED, FAULT, FOUND, HOLD, IDLE, LOST, RAMP, RAMPED, SAFE, SETTLED, States, Watch
@@ -27,7 +26,8 @@ class Session:
     states: the state machine; watch: its limits. unanswered: good samples without an answer; unwound: messages with unstretched lengths that
     were refused, unwound_cause: why the last was; most_wound: share of its length by which one of them may change a line, 0 for any.
     delay: how late the answers are, and how far the motion is predicted for that; frequency: of the platform; aimed: the moment (ns) that the
-    last step was meant for, None after a settle. wrenches: (1 + coupled, 6), row 0 the total, inside, as they go out now; shown: when, in ns of the source's clock.
+    last step was meant for, None after a settle. wrenches: (platforms + coupled, 6), the totals first, inside, as they go out now; shown: when, in ns of
+    the source's clock.
     """
 
     def __init__(self, mooring, gate, output, check=None, clock=time.monotonic_ns):
@@ -41,7 +41,7 @@ class Session:
         self.steps_in = StepsIn()
         self._restarts = 0
         self._anew = True           # the next good sample settles: the first, and the first after a reset of the simulation
-        self._static = None         # (1 + coupled, 6): where HOLD and SAFE go to
+        self._static = None         # (platforms + coupled, 6): where HOLD and SAFE go to
         self._good = None           # the last Motion that the core went to
         self._heard = None          # ns of the clock, when it did
         self._actions = []
@@ -120,11 +120,12 @@ class Session:
         elif self._stepped is not None:     # the timer mode may have carried the last motion on: time does not go back
             motion = motion._replace(frame_time=max(motion.time, self._stepped))
         if self.check is not None and self.check.verdict.kind == WRONG:
-            self.check = type(self.check)(self.gate.adapter)
+            self.check = self.check.anew()
         if self._settle_at(motion, "~/settle") is None:
             return False, self.states.cause
-        place = ", ".join(f"{x:.3f}" for x in motion.pose[:3])
-        return True, f"settled at ({place}) m{', the new place' if relocated else ''}"
+        places = np.reshape(motion.pose, (-1, 7))[:, :3]
+        place = " and ".join(f"({', '.join(f'{x:.3f}' for x in own)})" for own in places)
+        return True, f"settled at {place} m{', the new place' if relocated else ''}"
 
     def hold(self):
         """Ramp to the static answer until the next settle; returns (success, words)."""
@@ -187,11 +188,11 @@ class Session:
         """Compare the twist of the last sample with its pose; may refuse the source. Not urgent: call it when the answer is out."""
         if self._unmeasured is not None:
             (time, motion), self._unmeasured = self._unmeasured, None
-            self.frequency.add(time, motion.pose, motion.twist)
+            self.frequency.add(time, *motion.first)
         if self._unchecked is None:
             return
         (motion, sample), self._unchecked = self._unchecked, None
-        verdict = self.check.add(motion.time, motion.pose, sample.twist, sample.twist_frame)
+        verdict = self.check.look_at(motion, sample)
         if verdict.kind == WRONG:
             self._withdraw(FAULT, verdict.text)
 
@@ -230,7 +231,7 @@ class Session:
         if heart:
             self._withdraw(FAULT, heart)
         elif lost:
-            self._withdraw(LOST, lost)
+            self._withdraw(LOST, lost + self.gate.missing)
 
     def _withdraw(self, event, cause):
         """Into HOLD or SAFE, where the event leads there."""
@@ -299,7 +300,7 @@ class Session:
             return motion.stamp
         pose, twist = motion.pose, motion.twist
         if moment != motion.time:
-            pose, twist = carry_on(pose, twist, (moment - motion.time) * 1e-9 * self.gate.adapter.time_factor, motion.acceleration)
+            pose, twist = motion.ahead((moment - motion.time) * 1e-9 * self.gate.adapter.time_factor)
         time = self._seconds(moment)
         try:
             self.mooring.step(time, np.array(pose), np.array(twist))
@@ -328,9 +329,9 @@ class Session:
         return None
 
     def _computed(self, mooring):
-        coupled = mooring.coupled_wrenches
-        wrenches = np.empty((1 + len(coupled), 6))
-        wrenches[0], wrenches[1:] = mooring.wrench, coupled
+        coupled, totals = mooring.coupled_wrenches, self.output.totals
+        wrenches = np.empty((totals + len(coupled), 6))
+        wrenches[:totals], wrenches[totals:] = mooring.wrench, coupled
         return wrenches
 
     def _show(self, shown, computed=None):

@@ -6,6 +6,7 @@ answered is not delayed by it; the next input waits for as long as the statics t
 from dataclasses import replace
 
 import numpy as np
+from scipy.linalg import block_diag
 from std_msgs.msg import Float64MultiArray, MultiArrayDimension
 
 from mooring_ros.mooring import MooringError
@@ -18,13 +19,14 @@ RANGE_ANGLE = 3e-3      # rad
 
 
 def stiffness_out(stiffness, adapter, pose):
-    """A stiffness (6, 6), inside, in the axes, convention and scale of the wrenches that go out; pose (7,) is inside.
+    """A stiffness (6, 6), inside, in the axes, convention and scale of the wrenches that go out; pose (7,) is inside. Of M platforms (6 M, 6 M) and (M, 7).
 
     Forces and moves are both along those axes, moments and turns about them, through the reference point.
     """
-    turn = replace(adapter, scale=1.0, density_ratio=1.0).wrenches_out(np.eye(6), pose).T
-    loads = np.repeat([adapter.force_factor, adapter.moment_factor], 3)
-    moves = np.repeat([adapter.length_factor, 1.0], 3)
+    axes, poses = replace(adapter, scale=1.0, density_ratio=1.0), np.reshape(pose, (-1, 7))
+    turn = block_diag(*(axes.wrenches_out(np.eye(6), own).T for own in poses))
+    loads = np.tile(np.repeat([adapter.force_factor, adapter.moment_factor], 3), len(poses))
+    moves = np.tile(np.repeat([adapter.length_factor, 1.0], 3), len(poses))
     return loads[:, None] * (turn @ stiffness @ turn.T) / moves
 
 
@@ -40,9 +42,10 @@ class Stiffness:
         self._range = RANGE * max(mooring.unstretched_length, default=np.inf)
         self._at = self._pose = None
         self._settles = 0
-        slot = placeholder(36)
+        size = 6 * len(mooring.platforms or (None,))
+        slot = placeholder(size * size)
         message = Float64MultiArray(data=floats(slot))
-        message.layout.dim = [MultiArrayDimension(label="wrench", size=6, stride=36), MultiArrayDimension(label="motion", size=6, stride=6)]
+        message.layout.dim = [MultiArrayDimension(label="wrench", size=size, stride=size * size), MultiArrayDimension(label="motion", size=size, stride=size)]
         self._template = Template(message, [slot])
 
     def message(self, stamp, settles, wanted):
@@ -65,5 +68,8 @@ class Stiffness:
         return self._pose is None or self._left(self._mooring.pose)
 
     def _left(self, pose):
-        moved, turned = pose[:3] - self._pose[:3], rotation.turn_between(self._pose[3:], pose[3:])
+        return any(self._far(own, before) for own, before in zip(pose.reshape(-1, 7), self._pose.reshape(-1, 7)))
+
+    def _far(self, pose, before):
+        moved, turned = pose[:3] - before[:3], rotation.turn_between(before[3:], pose[3:])
         return np.linalg.norm(moved) > self._range or np.linalg.norm(turned) > RANGE_ANGLE

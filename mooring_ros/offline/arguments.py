@@ -80,11 +80,11 @@ def pose(text):
     return np.concatenate([numbers[:3], quaternion_from_degrees(*numbers[3:])])
 
 
-def load_mooring(scene, fidelity=None, solver=None, dt=None, segments=None, refine=None):
+def load_mooring(scene, fidelity=None, solver=None, dt=None, segments=None, refine=None, platforms=None):
     """A Mooring for a scene (path of it, or of a recording that holds it) and options where None means the default. Raises UsageError for bad input."""
     from mooring_ros.mooring import Mooring
 
-    chosen = {"fidelity": fidelity, "solver": solver, "dt": dt, "segments": segments, "refine": refine}
+    chosen = {"fidelity": fidelity, "solver": solver, "dt": dt, "segments": segments, "refine": refine, "platforms": platforms}
     with reading(scene):
         return Mooring(_recorded_scene(scene) or scene, **{name: value for name, value in chosen.items() if value is not None})
 

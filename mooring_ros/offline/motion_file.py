@@ -19,8 +19,8 @@ class Motion:
 
     path: str
     times: np.ndarray               # (n,) s; as in a CSV file; of MCAP see `motion_mcap`
-    poses: np.ndarray               # (n, 7) m and unit quaternion x, y, z, w
-    twists: np.ndarray              # (n, 6) m/s and rad/s, world axes
+    poses: np.ndarray               # (n, 7) m and unit quaternion x, y, z, w; (n, platforms, 7) for a schedule with platforms
+    twists: np.ndarray              # (n, 6) m/s and rad/s, world axes, or (n, platforms, 6)
     stamps: np.ndarray              # (n,) int ns, the stamps of the source
     source: str                     # in words: which topic or which columns
     schedule: list | None = None    # of recording.schedule.Action, for a recording of the node
@@ -28,6 +28,11 @@ class Motion:
     parameters: dict | None = None  # of the node, for a recording of it
     scene: AttachedScene | None = None  # in the recording
     remarks: tuple = field(default=())      # str, what a user should know about how the file was read
+
+    @property
+    def platforms(self):
+        """Names of the platforms that the node had, a tuple; empty for one without a name."""
+        return tuple((self.parameters or {}).get("platforms") or ())
 
     @property
     def start_ns(self):

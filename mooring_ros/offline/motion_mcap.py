@@ -44,14 +44,14 @@ def _scheduled(recording, topic, remarks):
     from rclpy.serialization import deserialize_message
     from std_msgs.msg import Float64MultiArray
 
-    actions, stamps, expected = [], [], 0
+    actions, stamps, expected, platforms = [], [], 0, recording.parameters.get("platforms")
     for entry in recording.messages([topic]):
         if entry.sequence != expected:
             raise ValueError(f"{recording.path}: {abs(entry.sequence - expected)} records of the step schedule {topic} are missing after "
                              f"{len(actions)}, expected all of them (--topic chooses an input to replay instead)")
         expected += 1
         try:
-            actions.append(schedule.decode(deserialize_message(entry.data, Float64MultiArray).data))
+            actions.append(schedule.decode(deserialize_message(entry.data, Float64MultiArray).data, platforms))
         except ValueError as error:
             raise ValueError(f"{recording.path}: topic {topic}: message {len(actions) + 1}: {error}") from error
         stamps.append(entry.log_time)

@@ -65,7 +65,7 @@ def run(args):
             raise UsageError(f"{args.csv}: both outputs have this name, expected two names")
     motion = _motion(args)
     settings = _settings(args, motion)
-    mooring = load_mooring(args.scene, **{name: settings[name] or None for name in MODEL})
+    mooring = load_mooring(args.scene, **{name: settings[name] or None for name in MODEL}, platforms=motion.platforms or None)
     for remark in (*mooring.warnings, *motion.remarks):
         complain(remark)
     scene_is_recorded = _compare_scenes(args.scene, mooring.scene, motion)
@@ -103,6 +103,10 @@ def _motion(args):
         raise UsageError(
             f"{args.motion}: a recording of the node is replayed step by step, expected no --rate, or --topic NAME with it to take an input's motion alone"
         )
+    if motion.platforms and motion.schedule is None:
+        raise UsageError(f"{args.motion}: recorded with platforms {', '.join(motion.platforms)}: the motion of one does not say where the others are, expected no --topic")
+    if motion.platforms and args.accuracy:
+        raise UsageError(f"{args.motion}: recorded with platforms {', '.join(motion.platforms)}, for which no accuracy is estimated, expected no --accuracy")
     return motion
 
 

@@ -24,7 +24,7 @@ NODE = "/mooring"
 ODOMETRY_TOPIC, ODOMETRY = "/platform/odom", "nav_msgs/msg/Odometry"
 WORLD_FRAME, PLATFORM_FRAME = "world", "platform"
 _WAITING_MESSAGES = 20_000  # for the disk: more than these and the replay waits for it
-WRENCH_COLUMNS = ("wrench.fx", "wrench.fy", "wrench.fz", "wrench.mx", "wrench.my", "wrench.mz")
+WRENCH_COLUMNS = ("fx", "fy", "fz", "mx", "my", "mz")
 
 
 @dataclass(frozen=True)
@@ -33,26 +33,30 @@ class Answer:
 
     stamp: int  # ns
     time: float  # s
-    wrench: np.ndarray  # (6,) N, N·m
+    wrench: np.ndarray  # (6,) N, N·m; (platforms, 6) of platforms with names
     coupled_wrenches: np.ndarray  # (k, 6) N, N·m
     fairlead_tension: np.ndarray  # (L,) N
     anchor_tension: np.ndarray  # (L,) N
 
 
 class CsvOutput:
-    """A table that appears under its name when it is closed; until then it is NAME.part. Numbers read back to the same bits."""
+    """A table that appears under its name when it is closed; until then it is NAME.part. Numbers read back to the same bits.
 
-    def __init__(self, path, line_names):
+    Wrenches are in columns wrench.fx to wrench.mz, or NAME.fx and so on of platforms with names.
+    """
+
+    def __init__(self, path, line_names, platforms=None):
         self._path, self._part = Path(path), Path(f"{path}.part")
         with reading(self._part):
             self._file = open(self._part, "w", encoding="ascii", newline="\n")
         ends = [f"{name}.{end}_tension" for name in line_names for end in ("fairlead", "anchor")]
-        self._file.write(",".join(["time", *ends, *WRENCH_COLUMNS]) + "\n")
+        wrenches = [f"{name}.{column}" for name in platforms or ("wrench",) for column in WRENCH_COLUMNS]
+        self._file.write(",".join(["time", *ends, *wrenches]) + "\n")
 
     def write(self, answer):
         """One row. Raises ComputationFailed when the disk refuses it."""
         tensions = np.column_stack((answer.fairlead_tension, answer.anchor_tension)).ravel()
-        row = ",".join(map(repr, [float(answer.time), *tensions.tolist(), *answer.wrench.tolist()]))
+        row = ",".join(map(repr, [float(answer.time), *tensions.tolist(), *answer.wrench.ravel().tolist()]))
         with self._disk():
             self._file.write(row + "\n")
 
@@ -78,29 +82,28 @@ class CsvOutput:
 class McapOutput:
     """A recording with the node's topics, that itself replays bit for bit. It appears under its name when it is closed."""
 
-    def __init__(self, path, parameters, scene, coupled_names, full_scale=None):
-        """parameters: dict as the node's; scene: the Scene, kept in the recording; full_scale: a node.full_scale.FullScale, or None."""
+    def __init__(self, path, parameters, scene, coupled_names, full_scale=None, platforms=None):
+        """parameters: dict as the node's; scene: the Scene, kept in the recording; full_scale: a node.full_scale.FullScale, or None; platforms: names, or None."""
         self._path = Path(path)
         self._part = self._path.with_suffix(".part.mcap")
         with reading(path):
             self._part.unlink(missing_ok=True)
             self._writer = RecordingWriter(self._part, parameters, AttachedScene(os.path.basename(scene.path), scene.text, scene.files))
-        self._coupled_topics = [messages.fairlead_topic(NODE, name) for name in coupled_names]
-        self._motion, self._step = _MotionTemplate(WORLD_FRAME, PLATFORM_FRAME), _step_template()
+        self._wrench_topics = [*messages.total_topics(NODE, platforms), *(messages.fairlead_topic(NODE, name) for name in coupled_names)]
+        self._motion, self._step = _MotionTemplate(WORLD_FRAME, PLATFORM_FRAME), _step_template(schedule.size(platforms))
         self._full_scale = full_scale
         self._sent = 0
 
     def write(self, answer, sample, composed):
         """The answer to one sample. sample: Mooring (or like it) as it stands; composed: its node.messages.Messages."""
         stamp = answer.stamp
-        self._put(f"{NODE}/wrench", messages.WRENCH, composed.wrench(stamp, answer.wrench), stamp)
-        for topic, wrench in zip(self._coupled_topics, answer.coupled_wrenches):
-            self._put(topic, messages.WRENCH, composed.wrench(stamp, wrench), stamp)
+        wrenches = np.vstack((answer.wrench, answer.coupled_wrenches))
+        for row, (topic, wrench) in enumerate(zip(self._wrench_topics, wrenches)):
+            self._put(topic, messages.WRENCH, composed.wrench(stamp, wrench, row), stamp)
         self._put(f"{NODE}/lines", messages.JOINT_STATE, composed.lines(stamp, sample), stamp)
         self._put(f"{NODE}/line_tensions", messages.FLOAT_ARRAY, composed.line_tensions(sample), stamp)
         if self._full_scale is not None:
-            for name, type_name, data in (*self._full_scale.wrenches(stamp, np.vstack((answer.wrench, answer.coupled_wrenches))),
-                                          *self._full_scale.lines(stamp, sample)):
+            for name, type_name, data in (*self._full_scale.wrenches(stamp, wrenches), *self._full_scale.lines(stamp, sample)):
                 self._put(f"{NODE}/{name}", type_name, data, stamp)
         self._wait_for_the_disk()
 
@@ -158,6 +161,6 @@ def _cut_to_whole_rows(path):
         file.truncate(file.read().rfind(b"\n") + 1)
 
 
-def _step_template():
-    slot = placeholder(schedule.LENGTH)
+def _step_template(length):
+    slot = placeholder(length)
     return Template(Float64MultiArray(data=messages.floats(slot)), [slot])

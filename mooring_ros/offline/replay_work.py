@@ -43,7 +43,8 @@ def replay(args, mooring, motion, settings, watched=None):
     """
     adapter = Adapter(**{name: settings[name] for name in ("twist_frame", "convention", "wrench_frame", "scale", "density_ratio")})
     world, platform = settings.get("world_frame") or WORLD_FRAME, settings.get("platform_frame") or PLATFORM_FRAME
-    frames = world if adapter.wrench_frame == "world" else platform, world
+    own = motion.platforms or (platform,)
+    frames = [world] * len(own) if adapter.wrench_frame == "world" else own, world
     composed = Messages(mooring, adapter, *frames)
     full_scale = FullScale(mooring, adapter, *frames) if settings["full_scale"] else None
     identical = inputs = None
@@ -84,9 +85,9 @@ class Outputs:
     """The files of a replay; leaving the context closes them, whatever happened."""
 
     def __init__(self, args, mooring, settings, full_scale):
-        self._mcap = McapOutput(args.output, settings, mooring.scene, mooring.coupled_names, full_scale)
+        self._mcap = McapOutput(args.output, settings, mooring.scene, mooring.coupled_names, full_scale, mooring.platforms)
         try:
-            self._csv = CsvOutput(args.csv, mooring.line_names) if args.csv else None
+            self._csv = CsvOutput(args.csv, mooring.line_names, mooring.platforms) if args.csv else None
         except UsageError:
             self._mcap.close()
             raise
@@ -136,11 +137,12 @@ def _samples(args, motion):
 
 def _answer(mooring, composed, adapter, done):
     wrenches = composed.wrenches(np.vstack((mooring.wrench, mooring.coupled_wrenches)), mooring.pose)
+    totals = len(mooring.platforms or (None,))
     return Answer(
         stamp=done.stamp,
         time=done.time,
-        wrench=wrenches[0],
-        coupled_wrenches=wrenches[1:],
+        wrench=wrenches[:totals] if mooring.platforms else wrenches[0],
+        coupled_wrenches=wrenches[totals:],
         fairlead_tension=mooring.fairlead_tension * adapter.force_factor,
         anchor_tension=mooring.anchor_tension * adapter.force_factor,
     )

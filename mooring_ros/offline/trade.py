@@ -126,7 +126,10 @@ def _motion(args):
     from .trade_motion import one_stretch
 
     with reading(args.motion):
-        return one_stretch(load_motion(args.motion, args.topic))
+        motion = load_motion(args.motion, args.topic)
+        if motion.platforms:
+            raise ValueError(f"{args.motion}: recorded with platforms {', '.join(motion.platforms)}, expected the motion of one platform: the trade is not built for several")
+        return one_stretch(motion)
 
 
 def _write_parameters(args, scene, path, found):
