@@ -1,5 +1,6 @@
 """Start the mooring node: `ros2 launch mooring_ros mooring.launch.py scene:=my_mooring.txt`; `--show-args` lists the arguments."""
 
+import os
 from pathlib import Path
 
 from launch import LaunchDescription
@@ -11,12 +12,15 @@ from launch_ros.actions import Node
 CONFIG = Path(__file__).resolve().parents[1] / "config"
 DEFAULT_SCENE = CONFIG / "scenes" / "volturnus_s_chain.txt"
 
+REACH, REACHES = "ROS_AUTOMATIC_DISCOVERY_RANGE", ("LOCALHOST", "SUBNET", "OFF", "SYSTEM_DEFAULT")
+
 ARGUMENTS = {
     "scene": ("", "MoorDyn v2 input file. Empty: as in params_file; without one, the VolturnUS-S chain."),
     "params_file": ("", "ROS parameter file of the node. Empty: config/mooring.yaml, all defaults."),
     "namespace": ("", "Namespace of the node."),
     "name": ("mooring", "Name of the node."),
     "autostart": ("", "Configure and activate at start: true or false. Empty: as in params_file."),
+    "reach": ("", "Who may discover the node: LOCALHOST, SUBNET, OFF or SYSTEM_DEFAULT. Empty: ROS_AUTOMATIC_DISCOVERY_RANGE of the shell, else LOCALHOST."),
     "recording": ("", "Record to this file or folder. Empty: as in params_file."),
 }
 
@@ -35,8 +39,16 @@ def start_node(context):
     return [
         Node(
             package="mooring_ros", executable="mooring_node", name=given["name"], namespace=given["namespace"], parameters=parameters, output="screen",
+            additional_env={REACH: reach(given["reach"])},
         )
     ]  # fmt: skip
+
+
+def reach(asked):
+    """Value of ROS_AUTOMATIC_DISCOVERY_RANGE for the node."""
+    if asked and asked not in REACHES:
+        raise ValueError(f"reach:={asked}: expected one of {', '.join(REACHES)}")
+    return asked or os.environ.get(REACH) or "LOCALHOST"
 
 
 def overrides(given):

@@ -102,3 +102,13 @@ def test_a_file_that_is_not_there_is_named(launch, argument, tmp_path):
 def test_autostart_is_true_or_false(launch):
     with pytest.raises(ValueError, match="autostart:=maybe: expected true or false"):
         launch(autostart="maybe")
+
+
+def test_the_node_is_discovered_on_this_machine_alone_unless_shell_or_argument_say_otherwise(launch, monkeypatch):
+    monkeypatch.delenv("ROS_AUTOMATIC_DISCOVERY_RANGE", raising=False)
+    assert launch().additional_env == {"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "SUBNET")
+    assert launch().additional_env == {"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET"}
+    assert launch(reach="OFF").additional_env == {"ROS_AUTOMATIC_DISCOVERY_RANGE": "OFF"}
+    with pytest.raises(ValueError, match="reach:=everywhere: expected one of LOCALHOST"):
+        launch(reach="everywhere")

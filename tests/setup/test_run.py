@@ -134,6 +134,14 @@ def test_tests_and_peers_are_installed_when_they_are_asked_for(checkout):
     assert checkout.run("test")[2] == checkout.run("bench")[2] == ""
 
 
+def test_ros_is_kept_to_this_machine_unless_the_shell_says_otherwise(checkout):
+    reach = ("python", "-c", "import os; print(os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'])")
+    checkout.environment.pop("ROS_AUTOMATIC_DISCOVERY_RANGE", None)
+    assert checkout.run(*reach)[1] == "LOCALHOST\n"
+    checkout.environment["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "SUBNET"
+    assert checkout.run(*reach)[1] == "SUBNET\n"
+
+
 def test_without_a_python_that_works_the_error_says_what_to_install(checkout, tmp_path):
     script = (checkout.root / "run").read_text()
     assert script.count("for version in 3.12 3.13 3.11 3.14 3.10; do") == 1
