@@ -34,6 +34,7 @@ BENCHMARKS = {
     "coupled_decay": "a floater on moorings, coupled with the node over DDS, against both as one system: period, damping, order (six minutes)",
     "coupled_delay": "the same with a delay of the wrench: damping that is lost, and what prediction in the node gives back (five minutes)",
     "node_latency": "the ROS 2 node: input stamp to wrench, against an empty echo node",
+    "late_spring": "a spring that answers late: the damping that is lost, and what prediction gives back (ten seconds)",
     "motion_capture": "noise, bunched stamps and lost frames of a camera system: what they make of velocities and of the force (a minute)",
     "faults": "everything that may go wrong around a running node, done to it from outside (five minutes)",
     "soak": "an hour of the node at 200 Hz with recording: nothing missing, nothing growing, replayed bit for bit",

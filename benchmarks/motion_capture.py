@@ -94,7 +94,8 @@ def filter_rows(rate):
         response = np.sum(smooth[rows, 7] * turn) / np.sum(true[rows, 7] * turn)
         table.append([f"{rate:g} Hz, {name}", f"{noise:.1f}", f"{100 * (abs(response) - 1.0):+.1f}", f"{-1e3 * np.angle(response) / (2 * np.pi):+.2f}",
                       *off(force(times, noisy[:, :7], noisy[:, 7:]), reference, rows)])
-    return table
+    shaken = np.hstack((np.array([frame.sample.pose for frame in made]), true[:, 7:]))
+    return [[f"{rate:g} Hz, poses as measured, true twists", *["0.0"] * 3, *off(force(times, shaken[:, :7], shaken[:, 7:]), reference, rows)], *table]
 
 
 def arguments(tracker, period):

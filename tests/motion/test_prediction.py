@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from benchmarks import late_spring
 from mooring_ros.motion import Predictor, carry_on
 
 AXIS = np.array([0.6, 0.0, 0.8])
@@ -72,26 +73,8 @@ def test_a_delay_that_is_none_is_refused(delay):
         Predictor(delay)
 
 
-def damping_of_a_late_spring(delay, predictor, omega=2.0, step=0.001):
-    """Damping ratio of x'' = -omega² x(t - delay), from the decay over ten periods; the spring answers predicted samples."""
-    late = round(delay / step)
-    x, v, waiting, peaks = 1.0, 0.0, [], []
-    for k in range(round(20.0 * math.pi / (omega * step))):
-        _, pose, _ = predictor.predict(step * k, (x, 0, 0, 0, 0, 0, 1.0), (v, 0, 0, 0, 0, 0))
-        waiting.append(-omega * omega * pose[0])
-        force = waiting[k - late] if k >= late else -omega * omega * (x - v * delay)
-        before = v
-        v += step * force
-        x += step * v
-        if before > 0.0 >= v:
-            peaks.append((k, x))
-    (begin, first), (end, last) = peaks[0], peaks[-1]
-    return math.log(first / last) / (omega * step * (end - begin))
-
-
-@pytest.mark.parametrize("delay", [0.005, 0.02, 0.05])
+@pytest.mark.parametrize("delay", late_spring.DELAYS)
 def test_a_late_spring_takes_half_omega_tau_of_the_damping_and_prediction_gives_nearly_all_of_it_back(delay):
-    rest = damping_of_a_late_spring(0.0, Predictor())
-    lost = damping_of_a_late_spring(delay, Predictor()) - rest
-    assert lost == pytest.approx(-0.5 * 2.0 * delay, rel=0.03)
-    assert abs(damping_of_a_late_spring(delay, Predictor(delay)) - rest) < 0.05 * abs(lost)
+    lost = late_spring.lost(2.0, delay, predicted=False)
+    assert lost == pytest.approx(0.5 * 2.0 * delay, rel=0.03)
+    assert abs(late_spring.lost(2.0, delay, predicted=True)) < 0.05 * lost
