@@ -20,6 +20,7 @@ LEVEL = 0.05  # of the largest tension: counts as the deviation where there is l
 PARTING = 2.0  # times what is stated where lines part: they do at the end of a step, and a sample falls before or after
 FINER = (2.0, 8.0, 16.0)  # times smaller steps: the next ones where one says something else
 PROBE, NUDGE = 12.0, 1e-6  # another fine step, and a shift of the whole motion (of the depth): where these change the force, chance decides it
+AGREED = 0.5  # of what is stated: finest runs that differ by more say no truth to hold others to
 BOUND = 1.5  # of the finest runs' peaks, where even those differ: no more than chance may make of it
 CHAOTIC = "chaotic"  # finer and finer steps come to different forces: held to bounds
 
@@ -48,8 +49,8 @@ def _beside_finer(scene, motion, history, step, start, solver):
     floor = 1e-3 * max(line.type.mass * line.length for line in scene.lines) * G
     stated = STATED * (PARTING if scene.failures else 1.0)
 
-    def beside(one, other):
-        return from_claims(alike(one.fairlead, other.fairlead, stated, floor))
+    def beside(one, other, share=1.0):
+        return from_claims(alike(one.fairlead, other.fairlead, share * stated, floor))
 
     runs = []
     for finer in FINER:
@@ -63,7 +64,7 @@ def _beside_finer(scene, motion, history, step, start, solver):
     nudged = Samples(motion.start, motion.times, motion.poses + shift, motion.twists)
     fine = [*runs[1:], _run(scene, motion, step / PROBE, start, solver), _run(scene, nudged, step / FINER[-1], start, solver)]
     fine = [run for run in fine if run is not None]
-    if all(beside(one, fine[1]).outcome == RIGHT for one in fine):
+    if all(beside(one, fine[1], AGREED).outcome == RIGHT for one in fine):
         return WRONG, verdict.words
     peak = np.max([run.fairlead.max(axis=0) for run in fine], axis=0) + floor
     over = (track.fairlead.max(axis=0) / peak).max()

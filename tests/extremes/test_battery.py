@@ -8,7 +8,6 @@ from mooring_ros import Mooring, MooringError
 
 CASES = list(battery.cases())
 SLOW = ("EA 1e11 N", "EA 1e13 N", "1 cm to 200 m", "5000 segments", "three days")  # with implicit steps
-NOT_YET_EXPLICIT = {"bed of 1e9 Pa/m": "impacts on the bed within one long step: 13 % of the deviation instead of 5 %"}
 NOT_YET = {  # what implicit steps of their default size do not do
     "jump by 1 m": "one step takes the jump for a static strain",
     "fairlead below the bed": "runs away",
@@ -28,9 +27,7 @@ def must_end_as_expected(case, solver):
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
-def test_extreme_ends_right_or_is_refused_as_expected(case, request):
-    if case.name in NOT_YET_EXPLICIT:
-        request.applymarker(pytest.mark.xfail(reason=NOT_YET_EXPLICIT[case.name]))
+def test_extreme_ends_right_or_is_refused_as_expected(case):
     must_end_as_expected(case, "auto")
 
 
