@@ -114,9 +114,14 @@ def huge_covariance(rig):
     rig.send(20)
 
 
-@fault("frame names of a hundred kilobytes, with line breaks and shell characters", NEXT)
-def long_frame_names(rig):
-    _one(rig, "frame: frame of the pose", frame="$(id); `id`\n" + "x" * 100_000)
+@fault("a frame name of a hundred kilobytes", NEXT)
+def long_frame_name(rig):
+    _one(rig, "malformed: a frame's name has 1000", frame="$(id); `id`\n" + "x" * 100_000)
+
+
+@fault("a frame name with line breaks and shell characters", NEXT)
+def odd_frame_name(rig):
+    _one(rig, r"frame: frame of the pose is '\$\(id\); `id`\\n../../x'", frame="$(id); `id`\n../../x")
 
 
 @fault("bytes that are no Odometry", NEXT)

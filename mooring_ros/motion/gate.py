@@ -215,9 +215,9 @@ class Gate:
         if abs(norm - 1.0) > UNIT_TOLERANCE:
             return QUATERNION, f"quaternion {_short(sample.pose[3:7])} has length {norm:.6g}, expected 1"
         if sample.frame != self.frame and sample.frame and self.frame:
-            return FRAME, f"frame of the pose is '{sample.frame}', expected '{self.frame}'"
+            return FRAME, f"frame of the pose is {sample.frame!r}, expected {self.frame!r}"
         if sample.child_frame != self.child_frame and sample.child_frame and self.child_frame:
-            return FRAME, f"frame of the platform is '{sample.child_frame}', expected '{self.child_frame}'"
+            return FRAME, f"frame of the platform is {sample.child_frame!r}, expected {self.child_frame!r}"
         if self.limits.input_age > 0.0 and now is not None:
             age = (now - sample.stamp) * 1e-9
             if age > self.limits.input_age:

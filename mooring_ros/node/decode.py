@@ -15,6 +15,7 @@ _LENGTH = struct.Struct("<I")
 _POSE = struct.Struct("<7d")
 _TWIST = struct.Struct("<6d")
 _COVARIANCE = 36 * 8
+_LONGEST_NAME = 256             # bytes of a frame's name with its end; it goes out again in every answer
 
 
 def odometry(data):
@@ -51,6 +52,8 @@ def _header(data):
 
 
 def _text(data, begin, length):
+    if length > _LONGEST_NAME:
+        raise ValueError(f"a frame's name has {length - 1} bytes, expected {_LONGEST_NAME - 1} at most")
     return data[begin:begin + length - 1].decode()
 
 

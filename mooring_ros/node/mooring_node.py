@@ -71,7 +71,7 @@ class MooringNode(LifecycleNode):
         self._refused = self._restarts = 0
         self._frequency = 0.0       # rad/s of the source's clock, where it is given
         self._punctuality, self._pace = Punctuality(), Pace()
-        parameters.declare(self, lambda: self._mooring is not None)
+        self._access = parameters.declare(self, lambda: self._mooring is not None)
         self.add_post_set_parameters_callback(lambda _: self._apply_live_parameters())
         self._steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._resets, self._jumps = None, self.get_clock().create_jump_callback(_BACKWARD, post_callback=self._follow_clock)
@@ -167,7 +167,7 @@ class MooringNode(LifecycleNode):
         refuse(values)
         if not values["scene"]:
             raise ValueError("parameter scene is empty, expected the path of a MoorDyn v2 input file")
-        scene = load_scene(values["scene"])
+        scene = load_scene(values["scene"], self._access.folders_of(values["scene"]))
         for name in parameters.unknown(self):
             self.get_logger().warning(f"there is no parameter {name}: it is not used")
         settings = {name: values[name] for name in ("fidelity", "solver", "refine")} | {name: values[name] or None for name in ("dt", "segments", "platforms")}

@@ -9,6 +9,7 @@ from rclpy.parameter import Parameter
 from mooring_ros.fidelity import EXPECTED, check
 from mooring_ros.mooring import SOLVERS
 from mooring_ros.motion.frames import CONVENTIONS, TWIST_FRAMES, WRENCH_FRAMES
+from mooring_ros.node.access import FILES, Access
 from mooring_ros.node.platforms import name_list
 from mooring_ros.node.punctuality import DEFAULTS, GRADES, UNITS
 from mooring_ros.node.resets import POLICIES
@@ -24,7 +25,7 @@ _HUGE, _TINY = 1e18, 1e-6
 @dataclass(frozen=True)
 class Entry:
     """One parameter. fixed: a change needs cleanup and configure. low, high: range of a number. choices: of a text; or
-    check(text), which raises ValueError, and expected: what it asks for, in words."""
+    check(text), which raises ValueError, and expected: what it asks for, in words. at_start: never changes while the node lives."""
 
     name: str
     default: Any
@@ -35,6 +36,7 @@ class Entry:
     choices: tuple = ()
     check: Any = None
     expected: str = ""
+    at_start: bool = False
 
 
 TABLE = (
@@ -100,6 +102,8 @@ TABLE = (
     Entry("accuracy.share", 0.05, "Share of one processor that it may take over the long run.", fixed=True, low=1e-3, high=1.0),
     Entry("accuracy.window", 30.0, "How much motion an estimate is made from (s of the core's time); the first third is run-in.", fixed=True, low=1.0,
           high=3600.0),
+    Entry("access.folders", "", "Folders, separated by colons, below which scene and recording.path may be set over the graph. Empty: working directory, the folders "
+                                "of the first scene and recording, and that for temporary files.", fixed=True, at_start=True),
     Entry("recording.enabled", False, "Record inputs, outputs, steps, parameters and scene to MCAP.", fixed=True),
     Entry("recording.path", "", "Where to record: NAME.mcap, or a folder name. Empty: mooring_DATE-TIME.mcap in the working directory.", fixed=True),
 )
@@ -107,14 +111,17 @@ _BY_NAME = {entry.name: entry for entry in TABLE}
 
 
 def declare(node, configured):
-    """Declare all parameters on a node. configured(): whether the node stands on the fixed ones now, so that they cannot change.
+    """Declare all parameters on a node; returns their Access. configured(): whether the node stands on the fixed ones now, so that they cannot change.
 
     Raises what rclpy raises for a value of the wrong type or outside its range.
     """
-    node.add_on_set_parameters_callback(lambda changes: _check(changes, configured()))
+    access = None       # what stands there at the start may name any file
+    node.add_on_set_parameters_callback(lambda changes: _check(changes, configured(), access))
     for entry in TABLE:
         _whole_number_as_float(node, entry)
         node.declare_parameter(entry.name, entry.default, _descriptor(entry))
+    access = Access(*(node.get_parameter(name).value for name in (*FILES, "access.folders")))
+    return access
 
 
 def values(node):
@@ -124,7 +131,7 @@ def values(node):
 
 def _descriptor(entry):
     words = entry.description + (" Fixed while configured." if entry.fixed else "")
-    descriptor = ParameterDescriptor(description=words, dynamic_typing=isinstance(entry.default, list))  # an empty list has no type
+    descriptor = ParameterDescriptor(description=words, read_only=entry.at_start, dynamic_typing=isinstance(entry.default, list))  # an empty list has no type
     if entry.choices:
         descriptor.additional_constraints = "one of " + ", ".join(entry.choices)
     if entry.expected:
@@ -143,7 +150,7 @@ def _whole_number_as_float(node, entry):
         node._parameter_overrides[entry.name] = Parameter(entry.name, value=float(override.value))
 
 
-def _check(changes, configured):
+def _check(changes, configured, access):
     for change in changes:
         entry = _BY_NAME.get(change.name)
         if entry is None:
@@ -152,11 +159,13 @@ def _check(changes, configured):
             return _refused(f"{entry.name} is fixed while configured: clean up first")
         if entry.choices and change.value not in entry.choices:
             return _refused(f"{entry.name} is '{change.value}', expected one of {', '.join(entry.choices)}")
-        if entry.check:
-            try:
+        try:
+            if entry.check:
                 entry.check(change.value)
-            except ValueError as error:
-                return _refused(str(error))
+            if access is not None and entry.name in FILES:
+                access.check(entry.name, change.value)
+        except ValueError as error:
+            return _refused(str(error))
         if isinstance(change.value, float) and not math.isfinite(change.value):
             return _refused(f"{entry.name} is {change.value}, expected a finite number")
     return SetParametersResult(successful=True)

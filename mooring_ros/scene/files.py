@@ -42,12 +42,17 @@ def unquoted(word: str) -> str:
     return word.strip(_QUOTES)
 
 
+def _below(path: str, folder: str) -> bool:
+    return os.path.commonpath((os.path.realpath(path), folder)) == folder
+
+
 class Files:
     """The files that a scene names, from beside the scene or from ``given`` content; keeps what was read."""
 
-    def __init__(self, scene: str, given: Iterable[tuple[str, str]] | None = None):
+    def __init__(self, scene: str, given: Iterable[tuple[str, str]] | None = None, folders: Iterable[str] | None = None):
         self._folder = os.path.dirname(scene)
         self._given = None if given is None else dict(given)
+        self._folders = None if folders is None else tuple(folders)
         self._read: dict[str, str] = {}
         self.warnings: list[str] = []
 
@@ -94,6 +99,8 @@ class Files:
                 raise asked.error(f"the file '{name}' is not among the recorded files, expected {what}")
             refuse_binary(self._given[name], path, f"expected {what}")
             return self._given[name]
+        if self._folders is not None and not any(_below(path, folder) for folder in self._folders):
+            raise asked.error(f"the file '{name}' lies outside of {', '.join(self._folders)}, expected it below")
         try:
             return read_text(path, f"expected {what}")
         except SceneError as error:

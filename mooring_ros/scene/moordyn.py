@@ -24,16 +24,21 @@ _UNUSED = {
 }
 
 
-def load_scene(path: str | os.PathLike) -> Scene:
-    """Reads and checks a MoorDyn v2 input file and the files that it names. SceneError when one cannot be read or used."""
+def load_scene(path: str | os.PathLike, folders: Iterable[str] | None = None) -> Scene:
+    """Reads and checks a MoorDyn v2 input file and the files that it names. SceneError when one cannot be read or used.
+
+    folders: whole paths below which a file that it names must lie, links followed; None for anywhere.
+    """
     file = os.fsdecode(path)
-    return parse_scene(read_text(file, _EXPECTED), file)
+    return parse_scene(read_text(file, _EXPECTED), file, folders=folders)
 
 
-def parse_scene(text: str, path: str | os.PathLike = "scene", files: Iterable[tuple[str, str]] | None = None) -> Scene:
+def parse_scene(text: str, path: str | os.PathLike = "scene", files: Iterable[tuple[str, str]] | None = None,
+                folders: Iterable[str] | None = None) -> Scene:
     """Checks the content of a MoorDyn v2 input file.
 
-    The files that it names are read from beside ``path``; with ``files`` (name as written, content; such as Scene.files) from there alone.
+    The files that it names are read from beside ``path``; with ``files`` (name as written, content; such as Scene.files) from there alone;
+    with ``folders`` from below these alone.
     """
     file = os.fsdecode(path)
     refuse_binary(text, file, _EXPECTED)
@@ -46,7 +51,7 @@ def parse_scene(text: str, path: str | os.PathLike = "scene", files: Iterable[tu
         if kind not in sections:
             raise SceneError(file, 0, f"no section {kind}, {_EXPECTED} with the sections LINE TYPES, POINTS, LINES and OPTIONS")
 
-    others = Files(file, files)
+    others = Files(file, files, folders)
     read = _read_sections(sections, others)
     line_types, bodies, rods, rod_types = (read.get(kind, ()) for kind in (LINE_TYPES, BODIES, RODS, ROD_TYPES))
     points, on_the_bed = read.get(POINTS, ((), frozenset()))

@@ -60,3 +60,9 @@ def test_a_stamp_with_more_than_a_second_of_nanoseconds_is_refused(decoded, mess
     message.header.stamp.nanosec = 4_000_000_000
     with pytest.raises(ValueError, match="4000000000 nanoseconds"):
         decoded(serialize_message(message))
+
+
+def test_a_frame_name_that_is_no_name_is_refused():
+    message = Odometry(child_frame_id="x" * 100_000)
+    with pytest.raises(ValueError, match="100000 bytes, expected 255"):
+        decode.odometry(serialize_message(message))
