@@ -36,13 +36,14 @@ BENCHMARKS = {
     "node_latency": "the ROS 2 node: input stamp to wrench, against an empty echo node",
     "late_spring": "a spring that answers late: the damping that is lost, and what prediction gives back (ten seconds)",
     "motion_capture": "noise, bunched stamps and lost frames of a camera system: what they make of velocities and of the force (a minute)",
+    "timing": "the node at 200 and 500 Hz, idle and loaded, with and without SCHED_FIFO, beside an empty loop (25 minutes; --steps 1000000: 20 hours)",
     "faults": "everything that may go wrong around a running node, done to it from outside (five minutes)",
     "soak": "an hour of the node at 200 Hz with recording: nothing missing, nothing growing, replayed bit for bit",
 }
 # Where it is not the name itself.
 MODULES = {"node_latency": "latency_table", "extremes": "extremes.report", "faults": "faults.campaign", "soak": "faults.soak"}
 # Those whose module has `add_arguments(parser)`, for options of their own behind their name: `bench soak --minutes 10`.
-WITH_OPTIONS = ("faults", "soak")
+WITH_OPTIONS = ("faults", "soak", "timing")
 DOCS = Path(__file__).parent.parent / "docs"
 DEFAULT_DOCUMENT = DOCS / "measurements.md"
 

@@ -224,6 +224,7 @@ class MooringNode(LifecycleNode):
             realtime.give_back()
         if self._session is not None:
             self._reports.timing(self._punctuality, self._axis)
+            self.publish_diagnostics(self._state_machine.current_state[1])
             gc.enable()
             gc.unfreeze()
         if self._companion is not None:
@@ -271,6 +272,10 @@ class MooringNode(LifecycleNode):
                 answers = session.observe(sample, now)
             if answers is not None:
                 self._answer(answers, arrived)
+                if self._rate is not None:
+                    # The first answer settles, which takes the time that it takes: deadlines begin after it.
+                    self._rate.restart()
+                    self._rate.missed = 0
         last = session.gate.last
         # A refused stamp may be anything: on the recording's time axis it stands beside the last good one.
         good = last.stamp if last is not None else stamp or 0
@@ -297,7 +302,8 @@ class MooringNode(LifecycleNode):
         begin = time.monotonic_ns()
         if not self._rate.due(self._watch_now()):
             return
-        self._punctuality.begin(begin, self._rate.late)
+        if self._session.wrenches is not None:
+            self._punctuality.begin(begin, self._rate.late, self._rate.skipped)
         steps = self._session.steps
         answers = self._session.tick()
         if self._session.steps > steps:

@@ -30,12 +30,17 @@ class Punctuality:
         self.steps, self.lateness = Histogram(), Histogram()
         self._begins, self._took = deque(maxlen=KEEP), deque(maxlen=KEEP)
 
-    def begin(self, now, late=None):
-        """A cycle begins at now (ns); late: ns after its deadline. Without deadlines, what the interval has above the promised one."""
+    def begin(self, now, late=None, skipped=0):
+        """A cycle begins at now (ns); late: ns after its deadline; skipped: deadlines before it that went by, and are as late as they are old.
+
+        Without deadlines, what the interval has above the promised one.
+        """
         if late is None and self.rate and self._begins:
             late = max(now - self._begins[-1] - round(NS / self.rate), 0)
         if late is not None:
             self.lateness.add(late)
+            for k in range(1, skipped + 1):
+                self.lateness.add(late + k * round(NS / self.rate))
         self._begins.append(now)
 
     def answered(self, took):
@@ -51,6 +56,7 @@ class Punctuality:
             figures |= {STEP_MEAN: took.mean(), STEP_SPREAD: took.std()}
             for name, share in (("p50", 50.0), ("p99", 99.0), ("max", 100.0)):
                 values[f"input to wrench {name} (ms)"] = f"{1e-3 * np.percentile(took, share):.3f}"
+            values["longest step (ms)"] = f"{1e-6 * self.steps.most:.3f}"
         intervals = np.diff(np.array(self._begins, dtype=float)) / NS
         if len(intervals) > 1 and intervals.min() > 0.0:
             mean = 1.0 / intervals.mean()

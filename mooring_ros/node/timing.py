@@ -15,12 +15,12 @@ class FixedRate:
     """Ticks at start + k·period, k = 0, 1, 2, … A late tick does not move the later ones; missed ones are skipped and counted.
 
     early: share of a period by which the caller may come before a deadline and still means it: timers do, who sleeps until it does not.
-    late: ns by which the last tick was.
+    late: ns by which the last tick was; skipped: how many deadlines before it went by without one.
     """
 
     def __init__(self, rate, early=0.0):
         self.period = round(NS / rate)
-        self.missed = self.ticks = self.late = 0
+        self.missed = self.ticks = self.late = self.skipped = 0
         self._early = round(early * self.period)
         self._start = None
         self._last = None
@@ -37,7 +37,8 @@ class FixedRate:
         if self._last is not None:
             if tick <= self._last:
                 return False
-            self.missed += tick - self._last - 1
+            self.skipped = tick - self._last - 1
+            self.missed += self.skipped
         self._last = tick
         self.ticks += 1
         self.late = max(now - self._start - tick * self.period, 0)

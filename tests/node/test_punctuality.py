@@ -119,6 +119,13 @@ def test_a_lockstep_of_no_promised_rate_may_be_as_slow_as_it_likes():
     assert (level, words) == (OK, "") and values["input to wrench p50 (ms)"] == "50.000"
 
 
+def test_deadlines_that_were_skipped_are_as_late_as_they_are_old():
+    punctuality = Punctuality(100.0)
+    punctuality.begin(0, 0)
+    punctuality.begin(57 * MS, 7 * MS, skipped=4)
+    assert sum(punctuality.lateness.counts) == 6 and punctuality.lateness.most == 47 * MS
+
+
 def test_a_threshold_of_zero_is_never_reached():
     off = {**DEFAULTS, RATE_ERROR: (0.0, 0.0), STEP_MEAN: (0.0, 0.0)}
     assert run(100.0, [20.0] * 100, [5000] * 100, thresholds=off)[0] == OK
