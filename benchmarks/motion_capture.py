@@ -4,6 +4,7 @@ import numpy as np
 
 from mooring_ros import Mooring
 from mooring_ros.motion import Adapter, Gate, Limits, OnlineTwist, Velocity
+from mooring_ros.motion.gate import DEFAULT_BANDWIDTH
 from mooring_ros.motion.tracking import Estimate, PoseFilter
 
 from . import camera_frames, tables
@@ -85,7 +86,7 @@ def filter_rows(rate):
     rows = times > SETTLED
     reference = force(times, true[:, :7], true[:, 7:])
     ways = {"three poses differenced": OnlineTwist(), f"quadratic through {WINDOW:g} s": Quadratic(period),
-            **{f"Kalman, {bandwidth:.3g} Hz": PoseFilter(period, bandwidth) for bandwidth in (5.0, rate / 15.0, 12.0)}}
+            **{f"Kalman, {bandwidth:.3g} Hz": PoseFilter(period, bandwidth) for bandwidth in (5.0, min(rate / 15.0, DEFAULT_BANDWIDTH * SCALE**0.5), 12.0)}}
     table = []
     for name, tracker in ways.items():
         noisy, smooth = estimates(tracker, made), estimates(type(tracker)(*arguments(tracker, period)), quiet)
@@ -106,7 +107,7 @@ def arguments(tracker, period):
 def kind_row(name, disturb, known):
     """A row of the table of disturbances, with the rate known to the gate or not."""
     made = disturb(camera_frames.frames(SECONDS, turning=False))
-    gate = Gate(Adapter(scale=SCALE), Limits(lost_frames=LOST), velocity=Velocity(camera_frames.RATE, 10.0) if known else Velocity())
+    gate = Gate(Adapter(scale=SCALE), Limits(lost_frames=LOST), velocity=Velocity(camera_frames.RATE) if known else Velocity())
     admitted = [(frame, motion) for frame in made if (motion := gate.admit(frame.sample)) is not None]
     begin, root = admitted[0][1].time, SCALE ** 0.5
     times = np.array([(motion.time - begin) * 1e-9 for _, motion in admitted])

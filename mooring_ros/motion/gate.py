@@ -24,7 +24,8 @@ from mooring_ros.motion.velocity import OnlineTwist
 
 UNIT_TOLERANCE = 1e-3
 RELOCATED_AFTER = 10
-DEFAULT_BANDWIDTH = 1.0 / 15.0  # of the rate
+DEFAULT_BANDWIDTH = 1.2             # Hz at full scale: six times the frequency of waves of 5 s
+_LARGEST_SHARE = 1.0 / 15.0         # of the rate, that the bandwidth is where nobody says it
 
 NON_FINITE, QUATERNION, STALE, AHEAD, REPEATED, REORDERED, JUMP, FRAME, UNPAIRED, MALFORMED, EARLY = REASONS = (
     "non_finite", "quaternion", "stale", "ahead", "repeated", "reordered", "jump", "frame", "unpaired", "malformed", "early")
@@ -94,7 +95,7 @@ class Velocity(NamedTuple):
     """How twists are made of poses, and how bunched stamps are put right.
 
     rate: Hz of the frames by the source's clock; 0: not known, then three poses are differenced and stamps are taken at their word.
-    bandwidth: Hz, see tracking.PoseFilter; 0: a fifteenth of the rate.
+    bandwidth: Hz, see tracking.PoseFilter; 0: DEFAULT_BANDWIDTH, but at most a fifteenth of the rate.
     """
 
     rate: float = 0.0
@@ -104,7 +105,8 @@ class Velocity(NamedTuple):
         """What makes twists of poses at times inside."""
         if not self.rate:
             return OnlineTwist()
-        return PoseFilter(time_factor / self.rate, (self.bandwidth or self.rate * DEFAULT_BANDWIDTH) / time_factor)
+        rate = self.rate / time_factor
+        return PoseFilter(1.0 / rate, self.bandwidth / time_factor or min(DEFAULT_BANDWIDTH, _LARGEST_SHARE * rate))
 
     def frame_clock(self):
         """What makes frame times of stamps, or None."""

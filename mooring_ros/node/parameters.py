@@ -53,7 +53,7 @@ TABLE = (
           fixed=True, choices=INPUTS),
     Entry("input_rate", 0.0, "Nominal rate of the input (Hz by its own clock), for camera systems: bunched stamps are put right, and poses without a twist are filtered. "
                              "0: not known, stamps are taken at their word.", fixed=True, high=1e5),
-    Entry("input_bandwidth", 0.0, "Bandwidth of that filter (Hz): some eight times the frequency of the waves. 0: a fifteenth of input_rate.", fixed=True, high=1e5),
+    Entry("input_bandwidth", 0.0, "Bandwidth of that filter (Hz): some six times the frequency of the waves. 0: 1.2 Hz at full scale, at most a fifteenth of input_rate.", fixed=True, high=1e5),
     Entry("world_frame", "", "Frame that the motion is given in; others are refused. Empty: that of the first sample.", fixed=True),
     Entry("platform_frame", "", "Frame of the platform; others are refused. Empty: that of the first sample.", fixed=True),
     Entry("twist_frame", "child", "Axes of the given twist: the platform's (child), or the world's.", fixed=True, choices=TWIST_FRAMES),

@@ -125,3 +125,8 @@ def test_a_good_velocity_is_found_again_after_a_long_pause():
     run(the_gate, made[:500])
     admitted = run(the_gate, made[1500:])
     assert velocity_error(admitted) < 0.01
+
+
+@pytest.mark.parametrize("rate, scale, bandwidth", [(250.0, 50.0, 1.2 * 50.0 ** 0.5), (60.0, 50.0, 4.0), (10.0, 1.0, 10.0 / 15.0), (200.0, 1.0, 1.2)])
+def test_the_bandwidth_that_nobody_says_follows_the_waves_of_the_scale_but_not_past_a_fifteenth_of_the_rate(rate, scale, bandwidth):
+    assert Velocity(rate).tracker(scale ** 0.5).bandwidth * scale ** 0.5 == pytest.approx(bandwidth)
