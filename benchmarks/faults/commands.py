@@ -1,7 +1,9 @@
 """Parameters, services and winches, used wrongly or too often."""
 import math
+from pathlib import Path
 
 from .judge import Wrong
+from .process import SCENE
 from .registry import fault
 
 _LENGTHS = "sensor_msgs/msg/JointState"
@@ -16,6 +18,32 @@ def parameters_refused(rig):
         if done or not reason:
             raise Wrong(f"parameter {name} could be set to {value!r} while active, or was refused without a reason")
     rig.shown.append(("the service's answer", reason, 0.0))
+    rig.send(20)
+
+
+@fault("over the graph: a scene and a recording outside of the node's folders, and a scene that names a file there",
+       "each is refused with its reason, and nothing of the file is told")
+def files_outside(rig):
+    rig.send(20)
+    assert rig.services.transition("deactivate") and rig.services.transition("cleanup")
+    for name, value in (("scene", "/etc/passwd"), ("recording.path", "/var/x.mcap"), ("recording.path", "../../../../var/x"), ("access.folders", "/")):
+        done, reason = rig.services.set(name, value)
+        if done or "root:" in reason:
+            raise Wrong(f"parameter {name} could be set to {value!r} over the graph, or the reason tells of the file: {reason}")
+    inside = Path(rig.folder) / "scene.txt"
+    inside.write_text(Path(SCENE).read_text(encoding="utf-8").replace("WtrDpth", "WtrDpth\n/etc/passwd SeafloorFile"), encoding="utf-8")
+    if not rig.services.set("scene", str(inside))[0]:
+        raise Wrong("a scene in the node's working directory is refused")
+    rig.mark()
+    if rig.services.transition("configure"):
+        raise Wrong("a scene that names /etc/passwd was read")
+    told = rig.expect("core", "/etc/passwd' lies outside", level=2)
+    if "root:" in told.message or "root:" in rig.process.log:
+        raise Wrong("diagnostics or log tell what is in /etc/passwd")
+    assert rig.services.set("scene", SCENE)[0]
+    shown = rig.shown
+    rig.fresh()
+    rig.shown = shown
     rig.send(20)
 
 

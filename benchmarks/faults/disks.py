@@ -90,7 +90,7 @@ def recovered(file, out, least):
     return count
 
 
-@fault(f"a disk that takes {SLOW} s for each write", "none needed: no wrench waits, and nothing is lost", node=None)
+@fault(f"a disk that takes {SLOW} s for each write", "none needed: no wrench waits, and nothing is lost", node=None, quick=False)
 def disk_slow(folder):
     # From outside: the interpreter of the node loads this before anything else.
     site = Path(folder) / "site"
@@ -149,7 +149,7 @@ def recording_removed(folder):
     return rig
 
 
-@fault("a recording that cannot be created", "set another `recording.path`, configure and activate", node=None)
+@fault("a recording that cannot be created", "set another `recording.path`, configure and activate", node=None, quick=False)
 def recording_impossible(folder):
     rig = Rig(_recorded("/proc/nowhere"), folder=folder)
     rig.launch()

@@ -31,12 +31,12 @@ def _ended(number, times):
     return act
 
 
-@fault("SIGTERM in full run", "start it again; the recording is closed and complete", node=None)
+@fault("SIGTERM in full run", "start it again; the recording is closed and complete", node=None, quick=False)
 def sigterm(folder):
     return _ended(signal.SIGTERM, 1)(folder)
 
 
-@fault("SIGINT twice", "start it again; the recording is closed and complete", node=None)
+@fault("SIGINT twice", "start it again; the recording is closed and complete", node=None, quick=False)
 def sigint_twice(folder):
     return _ended(signal.SIGINT, 2)(folder)
 

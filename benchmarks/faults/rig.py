@@ -164,8 +164,12 @@ class Rig:
         if self.fault_at is None:
             self.fault_at = time.monotonic()
 
-    def expect(self, name, words, within=SHOWN_WITHIN, level=1):
-        """Wait until /diagnostics shows the cause: status `name` of this level or above whose message matches the expression `words`."""
+    def expect(self, name, words, within=0.0, level=1):
+        """Wait until /diagnostics shows the cause: status `name` of this level or above whose message matches the expression `words`.
+
+        within: s, where that may take longer than SHOWN_WITHIN.
+        """
+        within = max(within, SHOWN_WITHIN)
         since, pattern = self.fault_at or time.monotonic(), re.compile(words)
 
         def found():

@@ -73,7 +73,7 @@ def _own(rig):
 
 
 # A publisher that ended is known for some twenty seconds more: where they are counted, the domain is a fresh one.
-@fault("a second simulator with the same motion", "end one of them; the first of two equal stamps is answered", node=None)
+@fault("a second simulator with the same motion", "end one of them; the first of two equal stamps is answered", node=None, quick=False)
 def two_equal_publishers(folder):
     with Rig(QUIET, folder=folder) as rig:
         rig.send(20)
@@ -107,7 +107,7 @@ def two_publishers(folder):
     return rig
 
 
-@fault("the simulator killed in full run, and restarted from its beginning", SETTLE)
+@fault("the simulator killed in full run, and restarted from its beginning", SETTLE, quick=False)
 def simulator_killed(rig):
     _own(rig)
     with simulator(rig) as first:
@@ -144,7 +144,7 @@ def listener_asleep(rig):
         rig.send(500)
 
 
-@fault("a publisher that is best effort only", "none needed: while there is no other, it is heard likewise", node=None)
+@fault("a publisher that is best effort only", "none needed: while there is no other, it is heard likewise", node=None, quick=False)
 def best_effort_publisher(folder):
     with Rig(QUIET, folder=folder, reliability="best_effort") as rig:
         if "best-effort" not in rig.process.log:

@@ -2,13 +2,13 @@
 
 import numpy as np
 from geometry_msgs.msg import WrenchStamped
-from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
 
 from mooring_ros.node.full_scale import PREFIX
 from mooring_ros.recording.reader import Recording
 
+from .decoded import decoded
 from .history import History
 from .stamps import times_of
 
@@ -65,14 +65,14 @@ def _wrench_name(topic, node):
 
 
 def _line_names(path, entry):
-    names = list(deserialize_message(entry.data, JointState).name)
+    names = list(decoded(entry, JointState, path).name)
     if not names or len(set(names)) != len(names):
         raise ValueError(f"{path}: topic {entry.topic}: names {names}, expected one for each line")
     return names
 
 
 def _tensions(path, entry):
-    message = deserialize_message(entry.data, Float64MultiArray)
+    message = decoded(entry, Float64MultiArray, path)
     labels = [(dimension.label, dimension.size) for dimension in message.layout.dim]
     if [label for label, _ in labels] != ["line", "end"] or labels[1][1] != 2:
         raise ValueError(f"{path}: topic {entry.topic}: layout {labels}, expected [line][end] with 2 ends")
@@ -80,7 +80,7 @@ def _tensions(path, entry):
 
 
 def _wrench(path, entry):
-    message = deserialize_message(entry.data, WrenchStamped)
+    message = decoded(entry, WrenchStamped, path)
     force, torque, stamp = message.wrench.force, message.wrench.torque, message.header.stamp
     return stamp.sec * 1_000_000_000 + stamp.nanosec, np.array([force.x, force.y, force.z, torque.x, torque.y, torque.z])
 

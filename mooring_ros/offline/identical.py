@@ -3,8 +3,9 @@
 from collections import defaultdict
 
 import numpy as np
-from rclpy.serialization import deserialize_message
 from std_msgs.msg import Float64MultiArray
+
+from .decoded import decoded
 
 TENSIONS = "/line_tensions"
 
@@ -22,7 +23,7 @@ class Identical:
         self._replayed = defaultdict(list)
         self.total = 0
         for entry in entries:
-            self._recorded[entry.publish_time].append(np.array(deserialize_message(entry.data, Float64MultiArray).data).tobytes())
+            self._recorded[entry.publish_time].append(np.array(decoded(entry, Float64MultiArray).data).tobytes())
             self.total += 1
 
     def add(self, stamp, anchor_tension, fairlead_tension):

@@ -41,8 +41,9 @@ def load_mcap(path, topic=None):
 
 
 def _scheduled(recording, topic, remarks):
-    from rclpy.serialization import deserialize_message
     from std_msgs.msg import Float64MultiArray
+
+    from .decoded import decoded
 
     actions, stamps, expected, platforms = [], [], 0, recording.parameters.get("platforms")
     for entry in recording.messages([topic]):
@@ -50,8 +51,9 @@ def _scheduled(recording, topic, remarks):
             raise ValueError(f"{recording.path}: {abs(entry.sequence - expected)} records of the step schedule {topic} are missing after "
                              f"{len(actions)}, expected all of them (--topic chooses an input to replay instead)")
         expected += 1
+        data = decoded(entry, Float64MultiArray, recording.path).data
         try:
-            actions.append(schedule.decode(deserialize_message(entry.data, Float64MultiArray).data, platforms))
+            actions.append(schedule.decode(data, platforms))
         except ValueError as error:
             raise ValueError(f"{recording.path}: topic {topic}: message {len(actions) + 1}: {error}") from error
         stamps.append(entry.log_time)

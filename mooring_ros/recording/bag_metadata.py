@@ -65,9 +65,17 @@ def metadata_text(files, state):
 
 def _topic(topic):
     return {'topic_metadata': {'name': topic.name, 'type': topic.type_name, 'serialization_format': 'cdr',
-                               'offered_qos_profiles': yaml.safe_load(topic.qos_profiles or '[]'),
+                               'offered_qos_profiles': _profiles(topic.qos_profiles),
                                'type_description_hash': topic.type_hash},
             'message_count': topic.count}
+
+
+def _profiles(text):
+    """What a channel of a recording says of its quality of service; nothing where that is no plain YAML."""
+    try:
+        return yaml.safe_load(text or '[]')
+    except yaml.YAMLError:
+        return []
 
 
 def write_metadata(folder, files, state):
