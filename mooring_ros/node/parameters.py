@@ -118,7 +118,7 @@ def declare(node, configured):
     access = None       # what stands there at the start may name any file
     node.add_on_set_parameters_callback(lambda changes: _check(changes, configured(), access))
     for entry in TABLE:
-        _whole_number_as_float(node, entry)
+        _mend(node, entry)
         node.declare_parameter(entry.name, entry.default, _descriptor(entry))
     access = Access(*(node.get_parameter(name).value for name in (*FILES, "access.folders")))
     return access
@@ -143,11 +143,13 @@ def _descriptor(entry):
     return descriptor
 
 
-def _whole_number_as_float(node, entry):
-    """`-p timing.rate:=100` is an integer to ROS and would be refused; nobody means that."""
+def _mend(node, entry):
+    """`-p timing.rate:=100` is an integer to ROS, and an empty list is nothing at all; nobody means that."""
     override = node._parameter_overrides.get(entry.name)
     if override is not None and isinstance(entry.default, float) and override.type_ == Parameter.Type.INTEGER:
         node._parameter_overrides[entry.name] = Parameter(entry.name, value=float(override.value))
+    if override is not None and isinstance(entry.default, list) and override.type_ == Parameter.Type.NOT_SET:
+        node._parameter_overrides[entry.name] = Parameter(entry.name, Parameter.Type.STRING_ARRAY, [])
 
 
 def _check(changes, configured, access):
