@@ -18,6 +18,7 @@ from typing import NamedTuple
 
 from mooring_ros.motion import rotation
 from mooring_ros.motion.frame_clock import FrameClock
+from mooring_ros.motion.freshness import Freshness
 from mooring_ros.motion.prediction import REST, acceleration_between, carry_on
 from mooring_ros.motion.tracking import PoseFilter
 from mooring_ros.motion.velocity import OnlineTwist
@@ -27,9 +28,9 @@ RELOCATED_AFTER = 10
 DEFAULT_BANDWIDTH = 1.2             # Hz at full scale: six times the frequency of waves of 5 s
 _LARGEST_SHARE = 1.0 / 15.0         # of the rate, that the bandwidth is where nobody says it
 
-NON_FINITE, QUATERNION, STALE, AHEAD, REPEATED, REORDERED, JUMP, FRAME, UNPAIRED, MALFORMED, EARLY = REASONS = (
-    "non_finite", "quaternion", "stale", "ahead", "repeated", "reordered", "jump", "frame", "unpaired", "malformed", "early")
-LOST = (NON_FINITE, QUATERNION)     # what a camera system sends while it does not see the platform
+NON_FINITE, QUATERNION, STALE, AHEAD, REPEATED, REORDERED, JUMP, FRAME, UNPAIRED, MALFORMED, EARLY, FROZEN = REASONS = (
+    "non_finite", "quaternion", "stale", "ahead", "repeated", "reordered", "jump", "frame", "unpaired", "malformed", "early", "frozen")
+LOST = (NON_FINITE, QUATERNION, FROZEN)     # what a camera system sends while it does not see the platform
 
 # Below these a difference is never a jump, however short the time: noise of a motion capture at 1 kHz stays in.
 _JUMP_FLOOR, _JUMP_FLOOR_ANGLE = 0.1, 0.01
@@ -42,8 +43,8 @@ class Limits:
 
     input_age: s by the receiving clock. jump: m, jump_angle: rad: how far the new pose may lie from where the last pose and the
     twists lead. jump_speed: m/s, jump_rate: rad/s: by how much a twist may change from sample to sample (and how large one
-    may be that is made of poses), and how fast such a difference of pose may arise. gap: s, the longest time between two samples that is still one motion. lost_frames: how many samples in a row
-    that hold no pose are bridged (0: none).
+    may be that is made of poses), and how fast such a difference of pose may arise. gap: s, the longest time between two samples that is
+    still one motion. lost_frames: how many samples in a row that hold no pose are bridged (0: none).
     """
 
     input_age: float = 0.0
@@ -134,6 +135,7 @@ class Gate:
         self.cause = ""
         self.last = None
         self._velocity = velocity
+        self._freshness = Freshness() if velocity.rate else None
         self._lost_run = 0
         self._start_anew()
 
@@ -157,6 +159,8 @@ class Gate:
         if self.last is not None and self.resets is not None and self.resets.seen(motion.stamp, self.last.stamp):
             self._follow_reset()
         problem = self._check_stamp(self.last, motion)
+        if problem and problem[0] == REPEATED and self._freshness is not None and self._freshness.new:
+            problem = None      # another frame of a bunch, by a clock that is coarser than the bunch
         if problem is None and self.frame_clock is not None:
             motion, problem = self._timed(motion)
         estimate = None
@@ -226,7 +230,13 @@ class Gate:
                 return STALE, f"sample is {age:.3f} s old, limit {self.limits.input_age:g} s"
             if -age > self.limits.input_age:
                 return AHEAD, f"stamp is {-age:.3f} s ahead of the clock, limit {self.limits.input_age:g} s"
+        if self._freshness is not None and self._freshness.frozen(sample.pose) and sample.twist is None and sample.stamp != self._last_stamp:
+            return FROZEN, "pose came again bit for bit, of a source whose poses never did: is the platform out of sight?"
         return None
+
+    @property
+    def _last_stamp(self):
+        return None if self.last is None else self.last.stamp
 
     @staticmethod
     def _check_stamp(last, motion):

@@ -130,3 +130,36 @@ def test_a_good_velocity_is_found_again_after_a_long_pause():
 @pytest.mark.parametrize("rate, scale, bandwidth", [(250.0, 50.0, 1.2 * 50.0 ** 0.5), (60.0, 50.0, 4.0), (10.0, 1.0, 10.0 / 15.0), (200.0, 1.0, 1.2)])
 def test_the_bandwidth_that_nobody_says_follows_the_waves_of_the_scale_but_not_past_a_fifteenth_of_the_rate(rate, scale, bandwidth):
     assert Velocity(rate).tracker(scale ** 0.5).bandwidth * scale ** 0.5 == pytest.approx(bandwidth)
+
+
+def test_a_driver_that_sends_the_last_pose_again_has_lost_the_platform():
+    made = recorded.frames(2.0)
+    made[300:308] = [frame._replace(sample=frame.sample._replace(pose=made[299].sample.pose)) for frame in made[300:308]]
+    the_gate = gate(lost_frames=5)
+    answers = [the_gate.admit(frame.sample) for frame in made]
+    assert the_gate.rejected["frozen"] == 8 and the_gate.bridged == 5 and "bit for bit" in the_gate.cause
+    assert all(motion.bridged for motion in answers[300:305]) and answers[305:308] == [None] * 3
+    assert all(motion and not motion.bridged for motion in answers[308:])
+
+
+def test_a_source_without_noise_may_stand_still():
+    the_gate = gate()
+    admitted = run(the_gate, recorded.frames(2.0, noise=0.0, moving=False))
+    assert len(admitted) == 500
+
+
+def test_frames_of_a_bunch_with_the_same_stamp_are_told_apart_and_a_doubled_message_is_not_a_frame():
+    coarse = [frame._replace(sample=frame.sample._replace(stamp=frame.sample.stamp // 1_000_000 * 1_000_000)) for frame in recorded.bunched(recorded.frames())]
+    assert len({frame.sample.stamp for frame in coarse}) < len(coarse) - 50
+    the_gate = gate()
+    admitted = run(the_gate, coarse)
+    assert len(admitted) == len(coarse) and np.abs(label_errors(admitted)).max() < 0.3 * PERIOD
+    assert the_gate.admit(coarse[-1].sample) is None and the_gate.rejected["repeated"] == 1
+
+
+def test_stamps_are_put_right_where_twists_are_given_as_well():
+    made = [frame._replace(sample=frame.sample._replace(twist=tuple(frame.twist.tolist()))) for frame in recorded.bunched(recorded.frames())]
+    the_gate = Gate(Adapter("world", scale=50.0), velocity=Velocity(recorded.RATE))
+    admitted = run(the_gate, made)
+    assert len(admitted) == len(made) and np.abs(label_errors(admitted)).max() < 0.1 * PERIOD
+    assert all(np.allclose(np.divide(motion.twist[:3], 50.0 ** 0.5), frame.twist[:3]) for frame, motion in admitted)
