@@ -14,6 +14,7 @@ from mooring_ros.motion import rotation
 TWIST_FRAMES = ("child", "world")
 CONVENTIONS = ("enu", "ned")
 WRENCH_FRAMES = ("world", "body")
+FULL_SCALE = "full scale"
 
 # Turns NED axes into ENU axes; it is its own inverse, as is the half turn about x between forward-right-down and forward-left-up.
 _NED_TO_ENU = (math.sqrt(0.5), math.sqrt(0.5), 0.0, 0.0)
@@ -162,5 +163,5 @@ def twist_axes(twist_frame_id, pose_frame_id, platform_frame, default):
 def scale_in_words(scale, density_ratio):
     """At which scale motion goes in and forces come out."""
     if scale == 1.0 and density_ratio == 1.0:
-        return "full scale"
+        return FULL_SCALE
     return f"model scale 1:{scale:.10g}, density of the water at full scale over that of the model {density_ratio:.10g}"

@@ -24,6 +24,7 @@ class History:
     times: np.ndarray
     series: dict
     remarks: tuple = field(default=())
+    scale: str = ""  # in words, where the file says it
 
 
 def load_history(path):

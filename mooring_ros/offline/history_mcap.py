@@ -5,6 +5,7 @@ from geometry_msgs.msg import WrenchStamped
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
 
+from mooring_ros.motion.frames import FULL_SCALE, scale_in_words
 from mooring_ros.node.full_scale import PREFIX
 from mooring_ros.recording.reader import Recording
 
@@ -47,7 +48,11 @@ def load_mcap_history(path):
     for topic, name in wrenches.items():
         values = _at(path, topic, rows[topic], stamps, remarks)
         series.update({f"{name}.{axis}": column for axis, column in zip(AXES, values.T)})
-    return History(str(path), times_of(stamps), series, (*remarks, *recording.damage))
+    given = recording.parameters or {}
+    scale = scale_in_words(given["scale"], given.get("density_ratio", 1.0)) if "scale" in given else ""
+    if scale not in ("", FULL_SCALE):
+        remarks.append(f"{path}: forces and times are at {scale}")
+    return History(str(path), times_of(stamps), series, (*remarks, *recording.damage), scale)
 
 
 def _node(path, found):

@@ -53,6 +53,8 @@ def validate(result_path, reference_path, mapping=()):
         reference = load_history(reference_path)
     for remark in (*result.remarks, *reference.remarks):
         complain(remark)
+    if result.scale and reference.scale and result.scale != reference.scale:
+        raise UsageError(f"{result_path} is at {result.scale}, {reference_path} at {reference.scale}: expected two recordings at the same scale")
     bases, pairs = {}, []
     try:
         names = pair_names(result.series, reference.series, mapping)

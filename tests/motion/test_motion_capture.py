@@ -82,6 +82,14 @@ def test_a_rate_that_is_not_the_sources_does_not_let_the_time_run_away(said):
     assert said > recorded.RATE or the_gate.rejected["early"] > 20 and "is that the rate?" in the_gate.cause
 
 
+@pytest.mark.parametrize("said", [248.75, 251.25])
+def test_a_rate_that_is_wrong_by_half_a_percent_costs_nothing(said):
+    the_gate = gate(rate=said)
+    admitted = run(the_gate, recorded.bunched(recorded.frames()))
+    assert len(admitted) == the_gate.received and the_gate.frame_clock.skipped == 0
+    assert np.abs(label_errors(admitted)).max() < 0.2 * PERIOD and velocity_error(admitted) < 0.01
+
+
 def test_a_first_frame_that_came_late_is_put_right():
     made = recorded.frames()
     delays = np.zeros(len(made))

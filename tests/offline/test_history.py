@@ -68,8 +68,8 @@ def wrench(stamp, force):
     return message
 
 
-def run(path, node="/mooring", start=0, count=5, wrench_every=1, names=("line1", "line2"), spoil=None):
-    with RecordingWriter(path, {}) as writer:
+def run(path, node="/mooring", start=0, count=5, wrench_every=1, names=("line1", "line2"), spoil=None, parameters=None):
+    with RecordingWriter(path, parameters or {}) as writer:
         def put(topic, type_name, message, stamp):
             writer.write(topic, type_name, serialize_message(message), stamp)
         for number in range(count):
@@ -129,3 +129,14 @@ def test_a_recording_without_tensions_says_what_it_has(tmp_path):
         writer.write("/note", "std_msgs/msg/String", serialize_message(String(data="a")), 0)
     with pytest.raises(ValueError, match="0 topics end in /line_tensions .*it has /note"):
         load_history(tmp_path / "x.mcap")
+
+
+def test_recordings_of_different_scales_are_not_compared(tmp_path, mooring):
+    model = run(tmp_path / "model.mcap", parameters={"scale": 50.0, "density_ratio": 1.025})
+    full = run(tmp_path / "full.mcap", parameters={"scale": 1.0, "density_ratio": 1.0})
+    history = load_history(model)
+    assert history.scale.startswith("model scale 1:50") and "forces and times are at model scale 1:50" in history.remarks[0]
+    assert load_history(full).scale == "full scale" and not load_history(full).remarks
+    outcome = mooring("validate", model, full)
+    assert outcome.status == 2 and "expected two recordings at the same scale" in outcome.err
+    assert mooring("validate", model, model).status == 0
