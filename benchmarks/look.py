@@ -101,7 +101,8 @@ def scene(cloud, markers):
             middle, half = marker.pose.position, 0.5 * marker.scale.x
             x, y = np.meshgrid([middle.x - half, middle.x + half], [middle.y - half, middle.y + half])
             axes.plot_surface(x, y, np.full_like(x, middle.z), color="#8c7859", alpha=0.25)
-    axes.set_box_aspect((1, 1, 0.35))
+    axes.set_box_aspect((1, 1, 0.35), zoom=1.25)
+    axes.view_init(25, -50)
     axes.set_xlabel("x (m)")
     axes.set_ylabel("y (m)")
     axes.set_zlabel("z (m)")
