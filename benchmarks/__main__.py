@@ -37,6 +37,7 @@ BENCHMARKS = {
     "late_spring": "a spring that answers late: the damping that is lost, and what prediction gives back (ten seconds)",
     "motion_capture": "noise, bunched stamps and lost frames of a camera system: what they make of velocities and of the force (a minute)",
     "timing": "the node at 200 and 500 Hz, idle and loaded, with and without SCHED_FIFO, beside an empty loop (25 minutes; --steps 1000000: 20 hours)",
+    "loops": "three ways in which a loop on rclpy can wait for its deadlines, with and without SCHED_FIFO (two minutes)",
     "faults": "everything that may go wrong around a running node, done to it from outside (five minutes)",
     "look": "the pictures of docs/look.md, from a real run of the node",
     "soak": "an hour of the node at 200 Hz with recording: nothing missing, nothing growing, replayed bit for bit",

@@ -1,4 +1,8 @@
 """The states as they are seen from outside the process."""
+import json
+import subprocess
+import sys
+
 import numpy as np
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from mcap.reader import make_reader
@@ -58,6 +62,11 @@ def test_an_input_that_stops_is_followed_by_the_ramp_to_the_static_wrench_and_on
     assert any("HOLD: no good input" in status.message for array in arrays for status in array.status)
     times = [message.log_time for topic, message in entries if topic == "/mooring/wrench"]
     assert sorted(times) == times and len(times) > 160      # the ramp has times of its own
+    replay = [sys.executable, "-m", "mooring_ros.offline", "replay", file, file, "-o", tmp_path / "again.mcap", "--json"]
+    identical = json.loads(subprocess.run(replay, capture_output=True, text=True, check=True).stdout)["identical"]
+    tensions = sum(topic == "/mooring/line_tensions" for topic, _ in entries)
+    assert identical == {"same": tensions, "total": tensions} and tensions >= 50
+    assert len([topic for topic, _ in entries if topic == "/mooring/timing"]) >= 3
 
 
 def test_a_lost_heartbeat_is_a_fault_until_somebody_settles(tmp_path):
