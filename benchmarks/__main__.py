@@ -33,6 +33,7 @@ BENCHMARKS = {
     "fidelity": "the linear fidelity beyond its range, and the estimate of a mooring's error, against the truth (two minutes)",
     "coupled_decay": "a floater on moorings, coupled with the node over DDS, against both as one system: period, damping, order (six minutes)",
     "coupled_delay": "the same with a delay of the wrench: damping that is lost, and what prediction in the node gives back (five minutes)",
+    "platforms": "two floaters that share a chain, each with its own motion: tensions and forces beside MoorDyn's, and the cost (twenty seconds)",
     "node_latency": "the ROS 2 node: input stamp to wrench, against an empty echo node",
     "late_spring": "a spring that answers late: the damping that is lost, and what prediction gives back (ten seconds)",
     "motion_capture": "noise, bunched stamps and lost frames of a camera system: what they make of velocities and of the force (a minute)",

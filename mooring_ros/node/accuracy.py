@@ -150,7 +150,7 @@ def report(companion, pace, mooring, now):
     if linear is not None:
         values["error of linearising now (%)"] = f"{100.0 * linear:.3g}"
     if companion is None:
-        return "estimate switched off", values
+        return "not estimated: not built for several platforms" if mooring.platforms else "estimate switched off", values
     found = companion.latest
     if found is None:
         return companion.ended or companion.waits_for, values
