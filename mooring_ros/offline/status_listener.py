@@ -48,13 +48,19 @@ class Listener:
             for status in message.status])
         if self._view.node and not self._subscribed:
             self._subscribed = True
-            self._listen(WrenchStamped, f"{self._view.node}/wrench", self._wrench)
+            for topic in self._wrench_topics():
+                self._listen(WrenchStamped, topic, lambda message, topic=topic: self._wrench(topic, message))
             self._listen(JointState, f"{self._view.node}/lines", self._lines)
 
-    def _wrench(self, message):
+    def _wrench_topics(self):
+        """~/wrench, or ~/platforms/NAME/wrench where the node has several."""
+        begin = f"{self._view.node}/platforms/"
+        return [name for name, _ in self._node.get_topic_names_and_types() if name.startswith(begin)] or [f"{self._view.node}/wrench"]
+
+    def _wrench(self, topic, message):
         force, torque, header = message.wrench.force, message.wrench.torque, message.header
         self._view.take_wrench(time.monotonic(), header.stamp.sec + 1e-9 * header.stamp.nanosec, header.frame_id,
-                               (force.x, force.y, force.z), (torque.x, torque.y, torque.z))
+                               (force.x, force.y, force.z), (torque.x, torque.y, torque.z), topic.split("/")[-2] if "/platforms/" in topic else "")
 
     def _lines(self, message):
         self._view.take_lines(time.monotonic(), message.name, message.position, message.velocity, message.effort)

@@ -18,9 +18,10 @@ def status_text(picture, colour=False):
         lines.append(f"{name:<10} {paint(f'{LEVELS[level]:<5}', _COLOURS[level])}  {status['message']}")
         told = [f"{key} {value}" for key, value in status["values"].items() if _TOLD.search(key) and value not in ("", "0", status["message"])]
         lines += [f"{'':<18}{row}" for row in _rows(told)]
-    wrench = picture["wrench"]
-    if wrench:
-        lines += ["", f"wrench      {_rate(wrench)}, stamp {wrench['stamp']:.3f} s, in frame {wrench['frame'] or '(none)'}",
+    for name, wrench in {"wrench": picture["wrench"], **picture["platforms"]}.items():
+        if wrench is None:
+            continue
+        lines += ["", f"{name:<10}  {_rate(wrench)}, stamp {wrench['stamp']:.3f} s, in frame {wrench['frame'] or '(none)'}",
                   f"            force   {_vector(wrench['force'])} N", f"            torque  {_vector(wrench['torque'])} N m"]
     if picture["lines"]:
         most = max(line["highest_tension"] for line in picture["lines"]) or 1.0

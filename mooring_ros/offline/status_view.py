@@ -1,6 +1,6 @@
 """What `mooring status` knows of a running node, without ROS and without a clock of its own: times are s of a steady clock, handed in."""
 
-from collections import deque
+from collections import defaultdict, deque
 
 PREFIX = "mooring: "
 WINDOW = 5.0  # s over which rates are taken
@@ -39,9 +39,9 @@ class View:
     def __init__(self, node=None):
         self.node = node
         self.nodes = set()
-        self._statuses, self._wrench, self._lines, self._tensions = {}, None, {}, []
+        self._statuses, self._wrenches, self._lines = {}, {}, {}
         self._told = None
-        self._rates = {"wrench": Rate(), "lines": Rate()}
+        self._rates = defaultdict(Rate)     # of wrenches, by platform
         self._highest = {}
 
     def take_statuses(self, now, statuses):
@@ -54,14 +54,13 @@ class View:
                 self._told = now
                 self._statuses[name.removeprefix(PREFIX)] = {"level": level, "message": message, "values": values}
 
-    def take_wrench(self, now, stamp, frame, force, torque):
-        """stamp: s; force, torque: (3,) N, N·m."""
-        self._rates["wrench"].add(now)
-        self._wrench = {"stamp": stamp, "frame": frame, "force": list(force), "torque": list(torque)}
+    def take_wrench(self, now, stamp, frame, force, torque, platform=""):
+        """stamp: s; force, torque: (3,) N, N·m; platform: its name where there are several."""
+        self._rates[platform].add(now)
+        self._wrenches[platform] = {"stamp": stamp, "frame": frame, "force": list(force), "torque": list(torque)}
 
     def take_lines(self, now, names, lengths, rates, tensions):
         """Of ~/lines: m, m/s, N."""
-        self._rates["lines"].add(now)
         self._lines = {name: (length, rate, tension) for name, length, rate, tension in zip(names, lengths, rates, tensions)}
         for name, tension in zip(names, tensions):
             self._highest[name] = max(self._highest.get(name, tension), tension)
@@ -73,7 +72,7 @@ class View:
 
     def picture(self, now):
         """All of it as an object for JSON; numbers that are not known are null."""
-        wrench = self._wrench and {**self._wrench, "rate": self._rates["wrench"].hertz(now), "age": self._rates["wrench"].age(now)}
+        wrenches = {name: {**wrench, "rate": self._rates[name].hertz(now), "age": self._rates[name].age(now)} for name, wrench in self._wrenches.items()}
         since = None if self._told is None else now - self._told
         return {
             "node": self.node,
@@ -81,7 +80,8 @@ class View:
             "since_diagnostics": since,
             "level": max((status["level"] for status in self._statuses.values()), default=None),
             "statuses": self._statuses,
-            "wrench": wrench,
+            "wrench": wrenches.pop("", None),
+            "platforms": wrenches,
             "lines": [{"name": name, "length": length, "length_rate": rate, "fairlead_tension": tension, "highest_tension": self._highest[name]}
                       for name, (length, rate, tension) in self._lines.items()],
         }

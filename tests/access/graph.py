@@ -37,7 +37,7 @@ def graph(folder, domain, **parameters):
         while True:
             seen = node.graph()
             subscribed = {topic.name: topic.type_name for topic in seen.topics if topic.subscribers}
-            if any(name.startswith("/platform/") for name in subscribed):
+            if any(name.startswith("/platform") for name in subscribed):
                 break
             assert process.poll() is None and time.monotonic() < end, (folder / f"node_{domain}.log").read_text(encoding="utf-8")
             time.sleep(0.1)

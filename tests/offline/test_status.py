@@ -40,6 +40,15 @@ def test_the_picture_tells_states_rates_delay_tensions_and_the_worst_step():
     assert "camera" not in text and "\x1b" not in text and "\x1b[33mWARN" in status_text(picture, colour=True)
 
 
+def test_of_several_platforms_each_has_its_wrench():
+    view = view_of_a_second()
+    for k in range(11):
+        view.take_wrench(k / 10, 0.1 * k, "world", (1.0, 2.0, 3.0), (0.0,) * 3, "body2")
+    picture = view.picture(1.0)
+    assert picture["platforms"]["body2"]["rate"] == pytest.approx(10.0) and picture["wrench"]["rate"] == pytest.approx(200.0)
+    assert "\nbody2       10.0 Hz" in status_text(picture)
+
+
 def test_a_rate_is_that_of_the_last_seconds_and_ages_when_nothing_comes():
     view = view_of_a_second(100)
     for k in range(50):
