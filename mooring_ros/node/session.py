@@ -48,6 +48,7 @@ class Session:
         self._origin = None
         self._stepped = None        # moment (ns) to which the core has been stepped
         self._unchecked = self._unmeasured = None
+        self._suspected = False     # something was missing at the last look at the clock
 
     @property
     def state(self):
@@ -98,6 +99,8 @@ class Session:
             return None
         lost = self.gate.cause if self.gate.lost else self.watch.input_lost((shown - motion.time) * 1e-9, HORIZON)
         self._judge(now, lost)
+        if lost and not self.states.held:
+            return None
         if lost or self.state == SAFE:
             self._show(self._time(now))
             return self._good.stamp
@@ -224,21 +227,25 @@ class Session:
         self.watch.forget()
 
     def _judge(self, now, lost):
-        """What the clock alone says: lost, why the input counts as lost, or ""; and the heartbeat."""
+        """What the clock alone says: lost, why the input counts as lost, or ""; and the heartbeat.
+
+        What is missing must be so at two looks in a row: a process that was held up has not heard yet what waits for it.
+        """
         if self.state == IDLE:
             return
         heart = self.watch.heart_lost(now)
-        if heart:
+        suspected, self._suspected = self._suspected, bool(heart or lost)
+        if suspected and heart:
             self._withdraw(FAULT, heart)
-        elif lost:
+        elif suspected and lost:
             self._withdraw(LOST, lost + self.gate.missing)
 
     def _withdraw(self, event, cause):
         """Into HOLD or SAFE, where the event leads there."""
-        now, went_out = self.clock(), not self.states.held and self.wrenches is not None
-        if self.states.fire(now, event, cause) and went_out:
+        went_out = not self.states.held and self.wrenches is not None
+        if self.states.fire(self.clock(), event, cause) and went_out:
             self._static = self._static_here()
-            self.shown = self._time(now)
+            self.shown = self._time(self.clock())
             self.output.turn(self.shown * 1e-9)
 
     def _static_here(self):

@@ -113,6 +113,7 @@ def test_ticks_carry_the_motion_on_and_stop_past_the_horizon(session, clock):
     assert session.mooring.time == pytest.approx(0.15)
     assert session.mooring.pose[0] == pytest.approx(0.3)
     clock.at(1101 + 1000 * HORIZON)
+    assert session.tick() is None and session.state == RUN
     assert session.tick() == 100 * MS
     assert session.states.lost and session.mooring.time == pytest.approx(0.15)
     clock.at(1400)
@@ -143,6 +144,8 @@ def test_silence_leads_to_hold_by_the_clock_and_the_static_wrench_at_the_last_go
     clock.at(950 + 299)
     assert session.look() is None and session.state == RUN
     shares = []
+    clock.at(950 + 300.5)
+    assert session.look() is None and session.state == RUN
     for ms in np.linspace(301, 1302, 78):
         clock.at(950 + ms)
         assert session.look() == 950 * MS
@@ -158,6 +161,20 @@ def test_silence_leads_to_hold_by_the_clock_and_the_static_wrench_at_the_last_go
     assert session.state == RUN
     np.testing.assert_array_equal(session.wrenches[0], session.mooring.wrench)
     assert events(session) == [SETTLED, RAMPED, LOST, FOUND, RAMPED]
+
+
+@pytest.mark.parametrize("missing", ["input_age", "heartbeat"])
+def test_a_process_that_was_held_up_hears_what_waits_for_it_before_it_judges(session, clock, missing):
+    setattr(session.watch, missing, 0.3)
+    session.beat()
+    session.take(sample(0), None)
+    for k in range(1, 4):
+        clock.at(1000 * k)
+        session.look()
+        session.beat()
+        session.take(sample(1000 * k * MS), None)
+        session.look()
+    assert session.state == RUN
 
 
 def test_a_hold_leaves_the_core_as_it_was(session):
@@ -218,6 +235,7 @@ def test_without_a_heartbeat_it_does_not_start_and_a_lost_one_is_a_fault_until_i
     clock.at(10)
     assert session.take(sample(10 * MS), None) == 10 * MS and session.state == RUN
     clock.at(511)
+    session.look()
     session.look()
     assert session.state == SAFE and "0.511 s" in session.states.cause
     assert session.take(sample(511 * MS), None) is None
