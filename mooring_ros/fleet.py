@@ -257,18 +257,23 @@ def _built(members, options):
     firsts = {}  # by path, or by identity of the Scene
     for m, member in enumerate(members):
         if isinstance(member, Mooring):
-            if member.platforms is not None:
-                raise ValueError(f"member {m} has platforms {', '.join(member.platforms)}; fleets are built for moorings with one platform each")
+            _refuse_platforms(m, member.platforms)
             if options:
                 raise ValueError(f"member {m} is a Mooring already; {', '.join(options)} can be given for scenes only")
             yield member
             continue
+        _refuse_platforms(m, options.get("platforms"))
         key = id(member) if isinstance(member, Scene) else str(member)
         if key in firsts:
             yield firsts[key].twin()
         else:
             firsts[key] = Mooring(member, **options)
             yield firsts[key]
+
+
+def _refuse_platforms(m, names):
+    if names is not None:
+        raise ValueError(f"member {m} has platforms {', '.join(names)}; fleets are built for moorings with one platform each")
 
 
 def _some(numbers_):

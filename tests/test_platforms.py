@@ -10,7 +10,7 @@ from scipy.optimize import fsolve
 from mooring_ros import Fleet, Mooring, MooringError
 from mooring_ros.core.poses import moved
 from mooring_ros.mooring import composed
-from mooring_ros.scene import COUPLED, FIXED, load_scene
+from mooring_ros.scene import COUPLED, FIXED, load_scene, parse_scene
 
 NAMES = ["body1", "body2"]
 PAIR = SCENES / "oc4_pair.txt"
@@ -256,6 +256,8 @@ def test_what_is_not_built_for_several_platforms_is_refused_by_name():
         pair(fidelity={"line1": "linear", "default": "dynamic"})
     with pytest.raises(ValueError, match="member 0 has platforms body1, body2; fleets are built for moorings with one platform each"):
         Fleet([pair()])
+    with pytest.raises(ValueError, match="fleets are built for moorings with one platform each"):
+        Fleet([PAIR], platforms=NAMES)
 
 
 def test_turned_platforms_give_turned_wrenches():
@@ -265,3 +267,71 @@ def test_turned_platforms_give_turned_wrenches():
     swapped = np.array([np.concatenate([pose[:3] * [-1, -1, 1], times_quaternion(half, pose[3:])]) for pose in mooring.pose[::-1]])
     other = settled(swapped)
     close(other.wrench[::-1] * [-1, -1, 1, -1, -1, 1], mooring.wrench, 1e-6)
+
+
+# Coupled bodies with weight, volume and drag, a rod on each, a line that bends clamped to either, a free clump between them, and a body that hangs from both.
+PARTS = """\
+two floaters that share a line
+---------------------- LINE TYPES -----------------------------------
+Name Diam MassDen EA BA/-zeta EI Cd Ca CdAx CaAx
+(-) (m) (kg/m) (N) (N-s/-) (N-m^2) (-) (-) (-) (-)
+chain 0.10 113.35 7.536E8 -0.8 0 2.0 0.8 0.4 0.25
+beam 0.10 20.0 1e8 -0.8 1e5 1.2 1.0 0.1 0.0
+---------------------- ROD TYPES -----------------------------------
+Name Diam Mass/m Cd Ca CdEnd CaEnd
+(-) (m) (kg/m) (-) (-) (-) (-)
+stick 0.5 300 1.0 1.0 0.5 0.3
+---------------------- BODIES -----------------------------------
+ID Attachment X0 Y0 Z0 r0 p0 y0 Mass CG I Volume CdA Ca
+(#) (-) (m) (m) (m) (deg) (deg) (deg) (kg) (m) (kg-m^2) (m^3) (m^2) (-)
+1 Coupled 5 3 -10 2 5 30 1e5 1|0|-2 1e6|2e6|3e6 80 40|50|60|700|800|900 0.5|0.6|0.7
+2 Coupled -400 -10 -8 0 -4 170 1e5 1|0|-2 1e6|2e6|3e6 80 40|50|60|700|800|900 0.5|0.6|0.7
+---------------------- RODS -----------------------------------
+ID RodType Attachment Xa Ya Za Xb Yb Zb NumSegs RodOutputs
+(#) (name) (#/key) (m) (m) (m) (m) (m) (m) (-) (-)
+1 stick Body1 1 0 -2 1 0 -8 3 -
+2 stick Body2 1 0 -2 1 0 -8 3 -
+---------------------- POINTS -----------------------------------
+ID Attachment X Y Z M V CdA CA
+(#) (-) (m) (m) (m) (kg) (m^3) (m^2) (-)
+1 Fixed 350 50 -100 0 0 0 0
+2 Body1 3 0 -3 100 0.1 0.2 1.0
+3 Fixed 300 -80 -100 0 0 0 0
+4 Fixed -750 0 -100 0 0 0 0
+8 Free -200 0 -60 3000 0.2 0.5 0.8
+5 Body2 3 0 -3 100 0.1 0.2 1.0
+6 Body1 -5 0 -3 0 0 0 0
+7 Body2 -5 1 -3 0 0 0 0
+---------------------- LINES -----------------------------------
+ID LineType AttachA AttachB UnstrLen NumSegs LineOutputs
+(#) (name) (#) (#) (m) (-) (-)
+1 chain 1 2 370 10 -
+2 beam 3 R1B 330 30 -
+3 chain 4 5 360 10 -
+4 beam 6 7 410 20 -
+5 chain R1A 8 220 10 -
+6 chain 8 R2A 220 10 -
+7 beam R1B R2B 420 20 -
+---------------------- OPTIONS -----------------------------------
+100 WtrDpth
+3e6 kBot
+3e5 cBot
+---------------------- need this line -----------------------------------
+"""
+
+
+@pytest.mark.parametrize("settings", [{}, {"solver": "implicit", "dt": 0.02}, {"fidelity": "quasi_static"}], ids=["explicit", "implicit", "quasi_static"])
+def test_rods_clamps_volumes_and_free_points_between_platforms_are_those_of_one_platform(settings):
+    """Tensions and what each coupled thing hands over, 1e-9; in the statics turned as well."""
+    scene = parse_scene(PARTS, "parts.txt", {})
+    times = np.arange(1, 11) * 0.1
+    poses, twists = surge_heave(times, pitch=0.05 if "fidelity" in settings else 0.0, period=4.0)
+    one, two = Mooring(scene, **settings), settled(scene=scene, **settings)
+    one.settle(HERE)
+    both, rates = carried(poses, twists, two.pose_in_file)
+    expected, found = one.run(times, poses, twists), two.run(times, both, rates)
+    assert two.coupled_names == one.coupled_names and two.platform_of_coupled == [0, 1, 0, 1, 0, 1, 0, 1][: len(one.coupled_names)]
+    close(found.fairlead_tension, expected.fairlead_tension, 1e-9)
+    close(found.coupled_wrenches, expected.coupled_wrenches, 1e-9)
+    close(total(found.wrench, both, poses[:, :3]), expected.wrench, 1e-9)
+    close(two.node_curvature("line7"), one.node_curvature("line7"), 1e-7)

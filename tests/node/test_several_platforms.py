@@ -2,12 +2,13 @@
 import json
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticStatus
-from geometry_msgs.msg import WrenchStamped
+from geometry_msgs.msg import PoseStamped, WrenchStamped
 from nav_msgs.msg import Odometry
 from node_peer import START, UPRIGHT, NodeProcess, Peer, free_domain, numbers, stamp_of
 from std_msgs.msg import Float64MultiArray
@@ -192,3 +193,36 @@ def test_a_node_with_names_that_are_no_coupled_bodies_stays_unconfigured(tmp_pat
         process.wait_for("the scene has no coupled body 'hull'; expected names of its coupled bodies (body1, body2)")
     finally:
         process.end()
+
+
+def test_a_platform_that_falls_silent_is_named_in_the_hold_and_ends_it_when_it_is_back(tmp_path):
+    """Poses alone, stamped by the wall clock."""
+    domain = free_domain()
+    process = NodeProcess(tmp_path, {"scene": SCENE, "platforms": NAMES, "input": "pose", "limits.input_age": 0.5}, domain)
+    peer = TwoPlatforms(domain, process)
+    to = {name: peer.node.create_publisher(PoseStamped, f"platforms/{name}/pose", 50) for name in NAMES}
+
+    def send(names):
+        t = time.time()
+        for name in names:
+            message, (place, q) = PoseStamped(), PLACES[name]
+            peer._fill_header(message, t, "world")
+            peer._fill_pose(message.pose, (place, 0.0, 0.0), q)
+            to[name].publish(message)
+        peer.spin(0.05)
+
+    def sent_until(names, condition):
+        def tried():
+            send(names)
+            status = peer.status.get("mooring: state")
+            return status is not None and condition(status.message)
+        peer.wait(tried, 20.0, f"a state while {names} send, now {peer.status.get('mooring: state')}")
+
+    try:
+        peer.wait(lambda: all(p.get_subscription_count() for p in to.values()), START, "subscriptions")
+        sent_until(NAMES, lambda words: words.startswith("RUN"))
+        sent_until(NAMES[:1], lambda words: words.startswith("HOLD") and "waits for body2 at" in words)
+        sent_until(NAMES, lambda words: words.startswith("RUN"))
+    finally:
+        process.end()
+        peer.close()
