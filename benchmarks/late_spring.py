@@ -1,4 +1,4 @@
-"""A spring that answers late, and the motion predicted by the delay: what is lost of the damping, and what is left of the loss; known exactly, or by cameras."""
+"""A spring that answers late, and the motion predicted by the delay, known exactly or by cameras: what is lost of the damping."""
 
 import math
 
@@ -63,7 +63,7 @@ def damping(omega, delay, source):
 
 
 def lost(omega, delay, predicted, cameras=False):
-    """By how much the delay lowers the damping ratio, with the motion predicted by it or not; with cameras, by half of what the force is held as well."""
+    """By how much the delay lowers the damping ratio, with the motion predicted by it or not; with cameras, by half of a hold more."""
     lead = delay + 0.5 * (HELD - 1) * STEP * cameras if predicted else 0.0
     return damping(omega, 0.0, Exact(0.0)) - damping(omega, delay, (Cameras if cameras else Exact)(lead))
 
@@ -79,7 +79,8 @@ def run(quick=False):
             rows.append([f"{omega:.3g} rad/s, {1e3 * delay:g} ms", f"{50 * omega * delay:.4f}", f"{100 * without:.4f}",
                          *(f"{100 * value:.4f} ({100 * share:.1f} %)" for value, share in zip(left, shares))])
             if shares[0] < GOAL or delay == 0.02 and removed < GOAL:
-                failed.append(f"late_spring: prediction removes {100 * removed:.0f} % at {omega:.3g} rad/s and {1e3 * delay:g} ms, goal {100 * GOAL:g} %")
-    content = {"late_spring": tables.table(["frequency and delay", "ω τ / 2 (%)", "lost (% of critical)", "predicted: lost (removed)", "by cameras: lost (removed)"], rows)}
+                failed.append(f"late_spring: {100 * removed:.0f} % removed at {omega:.3g} rad/s and {1e3 * delay:g} ms, goal {100 * GOAL:g} %")
+    header = ["frequency and delay", "ω τ / 2 (%)", "lost (% of critical)", "predicted: lost (removed)", "by cameras: lost (removed)"]
+    content = {"late_spring": tables.table(header, rows)}
     print(content["late_spring"], flush=True)
     return {"tables": content, "failed": failed}

@@ -85,15 +85,17 @@ def filter_rows(rate):
     times, true = np.array([f.time for f in made]), np.array([(*f.pose, *f.twist) for f in made])
     rows = times > SETTLED
     reference = force(times, true[:, :7], true[:, 7:])
+    bandwidths = 5.0, min(rate / 15.0, DEFAULT_BANDWIDTH * SCALE**0.5), 12.0
     ways = {"three poses differenced": OnlineTwist(), f"quadratic through {WINDOW:g} s": Quadratic(period),
-            **{f"Kalman, {bandwidth:.3g} Hz": PoseFilter(period, bandwidth) for bandwidth in (5.0, min(rate / 15.0, DEFAULT_BANDWIDTH * SCALE**0.5), 12.0)}}
+            **{f"Kalman, {bandwidth:.3g} Hz": PoseFilter(period, bandwidth) for bandwidth in bandwidths}}
     table = []
     for name, tracker in ways.items():
         noisy, smooth = estimates(tracker, made), estimates(type(tracker)(*arguments(tracker, period)), quiet)
         noise = np.std((noisy - smooth)[rows, 7]) * 1e3
         turn = np.exp(-2j * np.pi * times[rows])
         response = np.sum(smooth[rows, 7] * turn) / np.sum(true[rows, 7] * turn)
-        table.append([f"{rate:g} Hz, {name}", f"{noise:.1f}", f"{100 * (abs(response) - 1.0):+.1f}", f"{-1e3 * np.angle(response) / (2 * np.pi):+.2f}",
+        gain, lag = 100 * (abs(response) - 1.0), -1e3 * np.angle(response) / (2 * np.pi)
+        table.append([f"{rate:g} Hz, {name}", f"{noise:.1f}", f"{gain:+.1f}", f"{lag:+.2f}",
                       *off(force(times, noisy[:, :7], noisy[:, 7:]), reference, rows)])
     shaken = np.hstack((np.array([frame.sample.pose for frame in made]), true[:, 7:]))
     return [[f"{rate:g} Hz, poses as measured, true twists", *["0.0"] * 3, *off(force(times, shaken[:, :7], shaken[:, 7:]), reference, rows)], *table]
@@ -123,10 +125,11 @@ def kind_row(name, disturb, known):
 
 def run(quick=False):
     """Both tables; prints them."""
-    filters = tables.table(["rate and way", "noise of the velocity, rms (mm/s)", "amplitude at 1 Hz (%)", "lag at 1 Hz (ms)", "error of the force, rms (%)", "largest (%)"],
+    errors = "error of the force, rms (%)", "largest (%)"
+    filters = tables.table(["rate and way", "noise of the velocity, rms (mm/s)", "amplitude at 1 Hz (%)", "lag at 1 Hz (ms)", *errors],
                            [row for rate in ((250.0,) if quick else (100.0, 250.0)) for row in filter_rows(rate)])
     print(filters, flush=True)
-    kinds = tables.table(["frames of 250 Hz", "refused (%)", "error of the velocity, rms (mm/s)", "error of the force, rms (%)", "largest (%)"],
+    kinds = tables.table(["frames of 250 Hz", "refused (%)", "error of the velocity, rms (mm/s)", *errors],
                          [kind_row(name, disturb, known) for known in (True, False) for name, disturb in KINDS.items()])
     print(kinds, flush=True)
     return {"tables": {"motion_filters": filters, "motion_kinds": kinds}, "failed": []}

@@ -11,7 +11,8 @@ from std_msgs.msg import Float64MultiArray, MultiArrayDimension
 
 MODES = ("off", "given", "measured")
 TOPIC = "~/delay"
-FIELDS = ("mean (s)", "99th percentile (s)", "predicted (s)", "frequency of the platform (rad/s)", "damping ratio added by the delay", "with the prediction")
+FIELDS = ("mean (s)", "99th percentile (s)", "predicted (s)", "frequency of the platform (rad/s)", "damping ratio added by the delay",
+          "with the prediction")
 
 _KEPT = 2000            # delays for the percentile
 _MEAN = 200             # answers that the mean is over
@@ -22,8 +23,9 @@ _SLEW = 0.1             # s a second, by which the prediction may change: the co
 class Delay:
     """Delays of the answers, by the source's clock, and the lead that makes up for them.
 
-    mode: one of MODES. seconds: in the mode `given` the whole delay; else that on the part of the way that the node cannot see, before the stamp and after
-    the wrench. Both may be changed at any time. by_stamps: whether the stamps are of the node's clock; where not, the delay is counted from when the input arrived.
+    mode: one of MODES. seconds: in the mode `given` the whole delay; else that on the part of the way that the node cannot see, before the stamp
+    and after the wrench. Both may be changed at any time. by_stamps: whether the stamps are of the node's clock; where not, the delay is
+    counted from when the input arrived.
     """
 
     def __init__(self, mode="off", seconds=0.0):
@@ -36,8 +38,8 @@ class Delay:
         self._delays = deque(maxlen=_KEPT)
 
     def add(self, moment, out, took):
-        """An answer went out: moment, the time of the motion that it was meant for (ns, before the lead), out: when by the node's clock (ns), took: ns since
-        its input arrived."""
+        """An answer went out. moment: the time of the motion that it was meant for (ns, before the lead). out: when, by the node's clock (ns).
+        took: ns since its input arrived."""
         delay = (out - moment) * 1e-9
         self.by_stamps = abs(delay) < _STRANGE
         if not self.by_stamps:
@@ -75,7 +77,8 @@ class Delay:
     def status(self, frequency):
         """For diagnostics: whether a person should look, words, name -> value; frequency: rad/s, or None."""
         numbers = self.report(frequency)
-        values = {name: f"{number:.6g}" for name, number in zip(FIELDS, numbers)} | {"compensate": self.mode, "counted from": "the stamp" if self.by_stamps else "the arrival"}
+        values = {name: f"{number:.6g}" for name, number in zip(FIELDS, numbers)}
+        values |= {"compensate": self.mode, "counted from": "the stamp" if self.by_stamps else "the arrival"}
         words = f"{1e3 * self.mean:.2f} ms" + (f", {1e3 * self.lead:.2f} ms predicted" if self.lead else "")
         if frequency:
             words += f": {100.0 * numbers[-1]:+.2g} % of critical damping at {0.5 * frequency / math.pi:.3g} Hz"

@@ -10,8 +10,8 @@ from mooring_ros.node import decode
 
 ODOMETRY, POSE, TWIST = "nav_msgs/msg/Odometry", "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/TwistStamped"
 
-# Reliable, since in lockstep a lost sample is a simulator that waits for ever; `qos_overrides` parameters change it. A reliable subscription hears nothing
-# of a best-effort publisher, which camera systems often are: `Inputs.review` sees that.
+# Reliable, since in lockstep a lost sample is a simulator that waits for ever; `qos_overrides` parameters change it. A reliable subscription
+# hears nothing of a best-effort publisher, which camera systems often are: `Inputs.review` sees that.
 DEPTH = 100
 
 

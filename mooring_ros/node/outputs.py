@@ -44,7 +44,8 @@ class Outputs:
         self._stiffness = self._publisher(Float64MultiArray, messages.FLOAT_ARRAY, "~/stiffness", _LATCHED)
         self._delay = self._publisher(Float64MultiArray, messages.FLOAT_ARRAY, DELAY_TOPIC)
         self._full_scale = FullScale(mooring, adapter) if full_scale else None
-        self._full = {name: self._publisher(_TYPES[type_name], type_name, f"~/{name}") for name, type_name in self._full_scale.topics.items()} if full_scale else {}
+        topics = self._full_scale.topics.items() if full_scale else ()
+        self._full = {name: self._publisher(_TYPES[type_name], type_name, f"~/{name}") for name, type_name in topics}
         slot = placeholder(schedule.size(mooring.platforms))
         self._schedule = Template(Float64MultiArray(data=messages.floats(slot)), [slot])
         self._steps_topic = node.get_fully_qualified_name() + schedule.TOPIC_SUFFIX

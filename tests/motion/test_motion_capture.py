@@ -157,7 +157,8 @@ def test_a_source_without_noise_may_stand_still():
 
 
 def test_frames_of_a_bunch_with_the_same_stamp_are_told_apart_and_a_doubled_message_is_not_a_frame():
-    coarse = [frame._replace(sample=frame.sample._replace(stamp=frame.sample.stamp // 1_000_000 * 1_000_000)) for frame in recorded.bunched(recorded.frames())]
+    coarse = [frame._replace(sample=frame.sample._replace(stamp=frame.sample.stamp // 1_000_000 * 1_000_000))
+              for frame in recorded.bunched(recorded.frames())]
     assert len({frame.sample.stamp for frame in coarse}) < len(coarse) - 50
     the_gate = gate()
     admitted = run(the_gate, coarse)

@@ -26,7 +26,8 @@ def test_the_gains_settle_at_those_of_the_butterworth_observer():
     found = follow(PoseFilter(period, bandwidth), times, np.where(times < 3.9995 - period, 0.0, 1.0))
     omega = 2.0 * math.pi * bandwidth
     step = found[-1]
-    assert [step.pose[0], step.twist[0], step.acceleration[0]] == pytest.approx([2.0 * omega * period, 2.0 * omega ** 2 * period, omega ** 3 * period], rel=0.03)
+    gains = [2.0 * omega * period, 2.0 * omega ** 2 * period, omega ** 3 * period]
+    assert [step.pose[0], step.twist[0], step.acceleration[0]] == pytest.approx(gains, rel=0.03)
 
 
 @pytest.mark.parametrize("share", [0.05, 0.1, 0.2])
