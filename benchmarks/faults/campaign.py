@@ -6,7 +6,7 @@ import time
 import traceback
 
 from .. import tables
-from . import clocks, commands, disks, inputs, processes, sources  # noqa: F401  (they put their faults on the list)
+from . import clocks, commands, disks, inputs, modes, processes, sources  # noqa: F401  (they put their faults on the list)
 from .judge import Wrong
 from .registry import FAULTS
 from .rig import Rig

@@ -21,7 +21,8 @@ from .setups import QUIET
 SLOW = 1.5      # s that each write takes on the slow disk
 
 
-def _recorded(folder, name="run.mcap"):
+def recorded(folder, name="run.mcap"):
+    """Parameters of a node that records to folder/name."""
     return {**QUIET, "recording.enabled": True, "recording.path": str(Path(folder) / name)}
 
 
@@ -40,7 +41,7 @@ def _complete(rig, path):
 
 @fault("the disk full for two seconds", "none needed: what waits is written when there is room again, nothing is lost", node=None)
 def disk_full(folder):
-    with Rig(_recorded(folder), folder=folder) as rig:
+    with Rig(recorded(folder), folder=folder) as rig:
         rig.send(100)
         file = Path(folder) / "run.mcap"
         process = rig.process.process.pid
@@ -64,7 +65,7 @@ def disk_full(folder):
 
 @fault("the disk full until the end", "the file ends without an index, and `mooring recover` reads it", node=None, quick=False)
 def disk_full_at_the_end(folder):
-    with Rig(_recorded(folder), folder=folder) as rig:
+    with Rig(recorded(folder), folder=folder) as rig:
         rig.send(100)
         rig.peer.wait(lambda: False, 0.5)
         file = Path(folder) / "run.mcap"
@@ -107,7 +108,7 @@ def disk_slow(folder):
     before = os.environ.get("PYTHONPATH")
     os.environ["PYTHONPATH"] = os.pathsep.join([str(site), *filter(None, [before])])
     try:
-        rig = Rig(_recorded(folder), folder=folder)
+        rig = Rig(recorded(folder), folder=folder)
         rig.__enter__()
     finally:
         os.environ.pop("PYTHONPATH") if before is None else os.environ.update(PYTHONPATH=before)
@@ -135,7 +136,7 @@ def disk_slow(folder):
 
 @fault("the recording's folder removed while it is written", "the wrenches go on; configure anew for a new recording", node=None)
 def recording_removed(folder):
-    with Rig(_recorded(folder, "bag/run"), folder=folder) as rig:
+    with Rig(recorded(folder, "bag/run"), folder=folder) as rig:
         rig.send(100)
         rig.peer.wait(lambda: False, 0.5)
         shutil.rmtree(Path(folder) / "bag")
@@ -151,7 +152,7 @@ def recording_removed(folder):
 
 @fault("a recording that cannot be created", "set another `recording.path`, configure and activate", node=None, quick=False)
 def recording_impossible(folder):
-    rig = Rig(_recorded("/proc/nowhere"), folder=folder)
+    rig = Rig(recorded("/proc/nowhere"), folder=folder)
     rig.launch()
     rig.peer, rig.services = Peer(rig.domain), Services(rig.domain)
     try:

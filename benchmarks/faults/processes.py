@@ -4,7 +4,7 @@ import signal
 import time
 from pathlib import Path
 
-from .disks import _recorded, recovered, wrenches_in
+from .disks import recorded, recovered, wrenches_in
 from .judge import Wrong
 from .process import START
 from .registry import fault
@@ -14,7 +14,7 @@ from .setups import QUIET
 
 def _ended(number, times):
     def act(folder):
-        with Rig(_recorded(folder), folder=folder) as rig:
+        with Rig(recorded(folder), folder=folder) as rig:
             rig.send(100)
             rig.judged()
             for _ in range(times):
@@ -44,7 +44,7 @@ def sigint_twice(folder):
 @fault("SIGKILL, then a new process at the same recording.path while the simulator goes on",
        "the new process settles at its first sample and records to `run_2.mcap`; `mooring recover` reads the first", node=None)
 def sigkill(folder):
-    with Rig(_recorded(folder), folder=folder) as rig:
+    with Rig(recorded(folder), folder=folder) as rig:
         for _ in range(40):
             rig.send(5)
             time.sleep(0.05)
