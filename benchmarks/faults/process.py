@@ -15,16 +15,18 @@ START = 240.0       # s, cold compilation included
 class NodeProcess:
     """`mooring_node` with these parameters (name -> value), its log in folder/node.log.
 
-    domain: ROS_DOMAIN_ID; hears this machine alone. file_size: bytes that it may write into one file (RLIMIT_FSIZE), None for any.
+    domain: ROS_DOMAIN_ID; hears this machine alone. file_size: bytes that it may write into one file (RLIMIT_FSIZE), None for any. log: whether
+    anybody reads what it says.
     """
 
-    def __init__(self, folder, parameters, domain, file_size=None):
+    def __init__(self, folder, parameters, domain, file_size=None, log=True):
         self.log_path = Path(folder) / f"node_{time.monotonic_ns()}.log"
         arguments = [part for name, value in {"scene": SCENE, **parameters}.items() for part in ("-p", f"{name}:={_yaml(value)}")]
         environment = {**os.environ, "ROS_DOMAIN_ID": str(domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
                        "PYTHONPATH": os.pathsep.join([str(ROOT), *filter(None, [os.environ.get("PYTHONPATH")])])}
         limit = None if file_size is None else lambda: _limit_files(file_size)
-        with open(self.log_path, "wb") as log:
+        self.log_path.touch()
+        with open(self.log_path, "wb") if log else _broken_pipe() as log:
             self.process = subprocess.Popen([sys.executable, "-m", "mooring_ros.node", "--ros-args", *arguments], cwd=folder, env=environment,
                                             stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT, preexec_fn=limit)
 
@@ -60,6 +62,12 @@ class NodeProcess:
             except subprocess.TimeoutExpired:
                 continue
         return self.wait()
+
+
+def _broken_pipe():
+    reading, writing = os.pipe()
+    os.close(reading)
+    return os.fdopen(writing, "wb")
 
 
 def _limit_files(size):

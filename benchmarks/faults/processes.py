@@ -1,4 +1,5 @@
 """The node's process: signals, kills, and standing still."""
+import math
 import os
 import signal
 import time
@@ -34,6 +35,24 @@ def _ended(number, times):
 @fault("SIGTERM in full run", "start it again; the recording is closed and complete", node=None, quick=False)
 def sigterm(folder):
     return _ended(signal.SIGTERM, 1)(folder)
+
+
+@fault("SIGHUP: the terminal is gone", "start it again; the recording is closed and complete", node=None, quick=False)
+def sighup(folder):
+    return _ended(signal.SIGHUP, 1)(folder)
+
+
+@fault("nobody reads the log any more: standard output and error are broken pipes", "none needed", node=None, quick=False)
+def log_gone(folder):
+    with Rig(QUIET, folder=folder, log=False) as rig:
+        rig.send(20)
+        rig.bad(position=(math.nan,) * 3)       # which is logged
+        rig.expect("input", "non_finite")
+        rig.send(20)
+        rig.process.send(signal.SIGTERM)
+        if rig.process.wait() != 0:
+            raise Wrong(f"it ended with {rig.process.process.returncode}, expected 0")
+    return rig
 
 
 @fault("SIGINT twice", "start it again; the recording is closed and complete", node=None, quick=False)

@@ -26,11 +26,11 @@ def free_domain():
 class Rig:
     """A context: inside, the node runs. stamp: ns of the next good sample. shown: what diagnostics said, (status, words, s after the fault)."""
 
-    def __init__(self, parameters=None, file_size=None, folder=None, reliability="reliable"):
+    def __init__(self, parameters=None, file_size=None, folder=None, reliability="reliable", log=True):
         self._temporary = None if folder else tempfile.TemporaryDirectory(prefix="mooring_faults_")
         self.folder = folder or self._temporary.name
         self._parameters, self._file_size = parameters or {}, file_size
-        self.domain, self._reliability = free_domain(), reliability
+        self.domain, self._reliability, self._log = free_domain(), reliability, log
         self.judge = Judge(SCENE)
         self.stamp, self._offset = BEGIN, 0
         self._judged = 0
@@ -57,7 +57,7 @@ class Rig:
 
     def launch(self, **changes):
         """Start the node process (again)."""
-        self.process = NodeProcess(self.folder, {**self._parameters, **changes}, self.domain, self._file_size)
+        self.process = NodeProcess(self.folder, {**self._parameters, **changes}, self.domain, self._file_size, self._log)
 
     def fresh(self):
         """A new session of the same process, with nothing left of the last one."""

@@ -1,6 +1,6 @@
 """`mooring_node`: the process around the node.
 
-Exit status: 0 after SIGINT or SIGTERM (the usual end of a node), or after a lifecycle shutdown; 2 for arguments or parameters that are wrong.
+Exit status: 0 after SIGINT, SIGTERM or SIGHUP (the usual end of a node), or after a lifecycle shutdown; 2 for arguments or parameters that are wrong.
 A scene that cannot be loaded does not end the process: the node stays unconfigured, says so in its log and diagnostics, and
 can be given another scene.
 """
@@ -29,13 +29,14 @@ _WRONG_ARGUMENTS = (rclpy_implementation.RCLError, rclpy_implementation.RCLInval
 
 
 class _Signals:
-    """SIGINT and SIGTERM ask the loop to end. Before there is anything to close, they end the process at once."""
+    """SIGINT, SIGTERM and SIGHUP (the terminal is gone) ask the loop to end. Before there is anything to close, they end the process at once."""
 
     def __init__(self):
         self.stop = False
         self.at_once = True
-        for number in (signal.SIGINT, signal.SIGTERM):
-            signal.signal(number, self._handle)
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            if number != signal.SIGHUP or signal.getsignal(number) != signal.SIG_IGN:      # which is what nohup asks for
+                signal.signal(number, self._handle)
 
     def _handle(self, number, frame):
         first, self.stop = not self.stop, True
@@ -45,7 +46,7 @@ class _Signals:
     @staticmethod
     def ignore():
         """For the end of the process: Python gives up handlers while it still has things to do, and a further signal would end it with another status."""
-        for number in (signal.SIGINT, signal.SIGTERM):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             signal.signal(number, signal.SIG_IGN)
 
 
