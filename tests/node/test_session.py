@@ -163,6 +163,17 @@ def test_silence_leads_to_hold_by_the_clock_and_the_static_wrench_at_the_last_go
     assert events(session) == [SETTLED, RAMPED, LOST, FOUND, RAMPED]
 
 
+def test_an_input_that_is_there_but_refused_is_lost_for_that_cause(session, clock):
+    session.watch.input_age = 0.3
+    session.take(sample(0), None)
+    for k in range(1, 5):
+        clock.at(100 * k)
+        assert session.take(sample(100 * k * MS, 500.0), None) is None
+        session.look()
+    session.look()
+    assert session.state == HOLD and "no good input for 0.400 s" in session.states.cause and "4 refused, the last: jump: pose is 500 m" in session.states.cause
+
+
 @pytest.mark.parametrize("missing", ["input_age", "heartbeat"])
 def test_a_process_that_was_held_up_hears_what_waits_for_it_before_it_judges(session, clock, missing):
     setattr(session.watch, missing, 0.3)
