@@ -18,7 +18,7 @@ import numpy as np
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
 from lifecycle_msgs.msg import Transition
-from lifecycle_msgs.srv import ChangeState
+from lifecycle_msgs.srv import ChangeState, GetState
 from nav_msgs.msg import Odometry
 from rclpy.experimental.events_executor import EventsExecutor
 from std_msgs.msg import Float64MultiArray
@@ -114,11 +114,12 @@ class _Driver:
         self._node.create_subscription(Float64MultiArray, "mooring/timing", self._hear_timing, 10)
         self._node.create_subscription(DiagnosticArray, "/diagnostics", self._hear_diagnostics, 10)
         self._change = self._node.create_client(ChangeState, "mooring/change_state")
+        self._state = self._node.create_client(GetState, "mooring/get_state")
         self._counts, self._values, self.scheduling = None, {}, "normal"
 
     def __enter__(self):
         end = time.monotonic() + START
-        while not self._odometry.get_subscription_count() or not self._change.service_is_ready():
+        while not (self._change.service_is_ready() and self._state.service_is_ready() and self._label() == "active"):
             if time.monotonic() > end or self._process.poll() is not None:
                 raise RuntimeError("the node did not come up")
             self._executor.spin_once(timeout_sec=0.1)
@@ -164,6 +165,11 @@ class _Driver:
         self._wait(future.done)
         if not future.result().success:
             raise RuntimeError("the node refused a transition")
+
+    def _label(self):
+        future = self._state.call_async(GetState.Request())
+        self._executor.spin_once(timeout_sec=0.1)
+        return future.result().current_state.label if future.done() else ""
 
     def _wait(self, condition):
         end = time.monotonic() + 30.0

@@ -1,9 +1,7 @@
 """The managed node: it ties parameters, inputs, session, outputs, recording and diagnostics to the lifecycle."""
-import functools
 import gc
 import os
 import time
-import traceback
 
 import numpy as np
 from rclpy.clock import Clock, ClockType, JumpThreshold
@@ -14,7 +12,7 @@ from std_srvs.srv import Trigger
 from mooring_ros.mooring import Mooring, MooringError
 from mooring_ros.motion import Adapter, ConventionCheck, Gate, Limits, Velocity
 from mooring_ros.motion.ensemble import Checks, Ensemble
-from mooring_ros.node import live, parameters, realtime
+from mooring_ros.node import guards, live, parameters, realtime
 from mooring_ros.node.accuracy import Companion, report
 from mooring_ros.node.diagnostics import WARN, Diagnostics, fingerprint
 from mooring_ros.node.heartbeat import Heartbeat
@@ -34,23 +32,11 @@ from mooring_ros.recording.errors import RecordingError
 from mooring_ros.recording.writer import RecordingWriter
 from mooring_ros.scene import load_scene
 
-SUCCESS, FAILURE, ERROR = TransitionCallbackReturn.SUCCESS, TransitionCallbackReturn.FAILURE, TransitionCallbackReturn.ERROR
+FAILURE = TransitionCallbackReturn.FAILURE
 
 DIAGNOSTICS_PERIOD = 1.0    # s
 NEWS_PERIOD = 0.1           # s: what is new is told within it
 _BACKWARD = JumpThreshold(min_forward=None, min_backward=Duration(nanoseconds=-1), on_clock_change=False)
-
-
-def _transition(callback):
-    """Log what goes wrong inside a transition: rclpy swallows it."""
-    @functools.wraps(callback)
-    def guarded(self, state):
-        try:
-            return callback(self, state)
-        except Exception:
-            self.get_logger().fatal(f"{callback.__name__} failed:\n{traceback.format_exc()}")
-            return ERROR
-    return guarded
 
 
 def _velocity(values):
@@ -77,11 +63,12 @@ class MooringNode(LifecycleNode):
         self._resets, self._jumps = None, self.get_clock().create_jump_callback(_BACKWARD, post_callback=self._follow_clock)
         self._diagnostics = Diagnostics(self.get_fully_qualified_name())
         self._reports, self._told, self._told_at, self._collected = Reports(self), None, 0.0, 0.0
+        guards.refuse_unknown_transitions(self)
         self._diagnostics_timer = self.create_timer(NEWS_PERIOD, self._tick_diagnostics, clock=self._steady)
 
     # --- lifecycle ---
 
-    @_transition
+    @guards.transition
     def on_configure(self, state):
         """Load the scene, compile, open the recording, make the outputs. A bad scene is a failure that says where and why."""
         try:
@@ -95,7 +82,7 @@ class MooringNode(LifecycleNode):
         self._problem = ""
         return super().on_configure(state)
 
-    @_transition
+    @guards.transition
     def on_activate(self, state):
         """Start a session: the first good sample settles. Subscriptions are made now, so being subscribed to says that it is active."""
         values = parameters.values(self)
@@ -124,25 +111,25 @@ class MooringNode(LifecycleNode):
         self.get_logger().info(f"active: listens to {', '.join(self._inputs.topics)}")
         return super().on_activate(state)
 
-    @_transition
+    @guards.transition
     def on_deactivate(self, state):
         """End the session; the outputs stay, silent."""
         self._end_session()
         return super().on_deactivate(state)
 
-    @_transition
+    @guards.transition
     def on_cleanup(self, state):
         """Close the recording and forget the scene."""
         self._take_down()
         return super().on_cleanup(state)
 
-    @_transition
+    @guards.transition
     def on_shutdown(self, state):
         """From any state: end all and close the recording."""
         self._take_down()
         return super().on_shutdown(state)
 
-    @_transition
+    @guards.transition
     def on_error(self, state):
         """Whatever went wrong: back to unconfigured, with the recording closed."""
         self._take_down()
@@ -259,6 +246,7 @@ class MooringNode(LifecycleNode):
 
     # --- the way of a sample ---
 
+    @guards.live
     def _take(self, sample, topic, type_name, data, stamp):
         arrived = time.monotonic_ns()
         session, outputs = self._session, self._outputs
@@ -282,6 +270,7 @@ class MooringNode(LifecycleNode):
         outputs.record_input(topic, type_name, data, stamp if sample is not None and answers == stamp else good, stamp if stamp is not None else good)
         self._after()
 
+    @guards.live
     def _wind(self, lengths, words, topic, type_name, data):
         session, last = self._session, self._session.gate.last
         if lengths is not None:
@@ -297,6 +286,7 @@ class MooringNode(LifecycleNode):
         """ns of the steady clock at which `cycle` is due, or None."""
         return None if self._rate is None or self._timer is not None else self._rate.next(time.monotonic_ns())
 
+    @guards.live
     def cycle(self):
         """One cycle of the timer mode."""
         begin = time.monotonic_ns()
@@ -312,12 +302,19 @@ class MooringNode(LifecycleNode):
             self._repeat(answers)
         self._after()
 
+    @guards.live
     def _look(self):
         """The mode input, while there is something to watch, or no input to set the pace."""
         answers = self._session.look()
         if answers is not None:
             self._repeat(answers)
         self._after()
+
+    def fault(self, words):
+        """Something is wrong that nobody expected."""
+        if self._session is not None:
+            self._session.fault(words)
+            self._say_state()
 
     def _repeat(self, stamp):
         self._outputs.repeat(stamp, self._outputs.answer(stamp, self._session), self._session.shown)

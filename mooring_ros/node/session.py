@@ -144,6 +144,10 @@ class Session:
         """The input is there but of no use any more, for this cause: hold, until a good sample."""
         self._withdraw(LOST, cause)
 
+    def fault(self, cause):
+        """Something is wrong, for this cause: SAFE, until somebody settles."""
+        self._withdraw(FAULT, cause)
+
     def beat(self):
         """A heartbeat came."""
         self.watch.beat(self.clock())

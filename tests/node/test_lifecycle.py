@@ -4,6 +4,7 @@ import subprocess
 
 import numpy as np
 import pytest
+from lifecycle_msgs.srv import ChangeState
 from node_peer import SCENE, UPRIGHT, node_and_peer
 
 from mooring_ros.mooring import Mooring
@@ -48,6 +49,17 @@ def test_cycles_through_all_states_leave_nothing_behind(managed):
         used.append((threads(process), memory(process)))
     assert used[-1][0] <= used[1][0]
     assert used[-1][1] < used[1][1] + 20_000
+
+
+def test_a_transition_that_there_is_none_of_is_refused_and_the_node_lives_on(managed):
+    process, peer = managed
+    assert not peer.transition("activate") and not peer.transition("deactivate") and not peer.transition("cleanup")
+    unknown = ChangeState.Request()
+    unknown.transition.id = 77
+    assert not peer.call("mooring/change_state", ChangeState, unknown).success
+    unknown.transition.label = "explode"
+    assert not peer.call("mooring/change_state", ChangeState, unknown).success
+    assert peer.state() == "unconfigured" and "expected one of configure (1)" in process.log
 
 
 def test_a_bad_scene_is_a_failed_configure_with_file_and_line_and_another_scene_works(managed, tmp_path):
