@@ -11,7 +11,7 @@ from mooring_ros import Mooring
 from mooring_ros.core.poses import moved
 from mooring_ros.scene import load_scene
 
-from . import tables
+from . import platform_row, tables
 from .moordyn_peer import silence
 
 SCENE = Path(__file__).parent.parent / "config" / "scenes" / "oc4_pair.txt"
@@ -109,6 +109,13 @@ def cost(platforms):
     return least / times[-1]
 
 
+def of_rows(counts):
+    """Rows of the table: floaters, lines, CPU time, and how many times faster than real time."""
+    for count in counts:
+        lines, cpu = platform_row.cost(count, SCENE)
+        yield [count, lines, f"{1e6 * cpu:.0f}", f"{1e6 * cpu / lines:.0f}", f"{1.0 / cpu:.0f}"]
+
+
 def run(quick=False):
     """Prints the tables."""
     rows, failed = [], []
@@ -119,9 +126,11 @@ def run(quick=False):
         if changing.max() > GOAL:
             failed.append(f"platforms: {what} is {changing.max():.2f} % off MoorDyn's, goal {GOAL:g} %")
     one, two = cost(None), cost(NAMES)
+    rows_of_floaters = list(of_rows((2, 5) if quick else (2, 5, 10, 25)))
     content = {
         "platforms": tables.table(["", "standard deviation (kN, kN m)", "rms of the difference (%)", "of the means (%)"], rows),
         "platforms_cost": tables.table(["platforms", "CPU for one simulated second (µs)"], [["one, both floaters on it", f"{1e6 * one:.0f}"], ["two", f"{1e6 * two:.0f}"]]),
+        "platforms_row": tables.table(["floaters, each a platform", "lines", "CPU for one simulated second (µs)", "for one line", "times real time"], rows_of_floaters),
     }
     print("\n\n".join(content.values()), flush=True)
     return {"tables": content, "failed": failed}

@@ -1,4 +1,5 @@
 """Samples of several platforms become one motion."""
+import numpy as np
 import pytest
 
 from mooring_ros.motion import Adapter, Limits, Sample
@@ -126,3 +127,24 @@ def test_names_and_parameters_that_do_not_go_together_are_refused():
     with pytest.raises(ValueError, match="expected none with several platforms"):
         refuse({"platforms": ["body1"], "platform_frame": "hull"})
     refuse({"platforms": [], "platform_frame": "hull"})
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_whatever_is_lost_and_however_streams_interleave_the_stamps_that_all_have_given_come_out_in_order(seed):
+    """Random drops and lags below WAITING; what is given up and what is answered is all that came, but for what still waits."""
+    random = np.random.default_rng(seed)
+    count = int(random.integers(2, 4))
+    streams = [[ms for ms in range(1, 200) if random.random() < 0.8] for _ in range(count)]
+    every = Ensemble(NAMES[:count], Adapter())
+    sent, found = [0] * count, []
+    while any(sent[number] < len(streams[number]) for number in range(count)):
+        slowest = min(sent)
+        number = int(random.choice([n for n in range(count) if sent[n] < len(streams[n]) and sent[n] - slowest < 40 or sent[n] == slowest and sent[n] < len(streams[n])]
+                                   or [n for n in range(count) if sent[n] < len(streams[n])]))
+        motion = every.admit(given(number, streams[number][sent[number]]))
+        sent[number] += 1
+        if motion is not None:
+            found.append(motion.stamp // MS)
+    assert found == sorted(set.intersection(*map(set, streams)))
+    waiting = sum(len(queue) for queue in every._waiting)
+    assert every.received == sum(map(len, streams)) == count * len(found) + every.rejected[UNPAIRED] + waiting
