@@ -27,6 +27,7 @@ def load_mcap(path, topic=None):
     Raises ValueError and RecordingError (a ValueError).
     """
     recording = Recording(path)
+    _check_platforms(recording)
     found = {name: type_name for name, (type_name, count) in recording.topics().items() if count}
     cut = (f"{recording.cut}; what is before was taken",) if recording.cut else ()
     if topic is None and recording.parameters is not None:
@@ -38,6 +39,12 @@ def load_mcap(path, topic=None):
             return _scheduled(recording, steps[0], cut)
     pose_topic, twist_topic = _chosen(path, found, topic)
     return _measured(recording, found, pose_topic, twist_topic, cut)
+
+
+def _check_platforms(recording):
+    names = (recording.parameters or {}).get("platforms", [])
+    if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
+        raise ValueError(f"{recording.path}: recorded parameter platforms is {str(names)[:80]!r}, expected a list of names")
 
 
 def _scheduled(recording, topic, remarks):

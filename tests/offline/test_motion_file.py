@@ -381,3 +381,25 @@ def test_a_cut_recording_is_read_up_to_the_cut_and_says_so(tmp_path):
 
 def test_the_schedule_of_another_recorder_is_not_trusted(tmp_path):
     assert load_motion(foreign(node_recording(tmp_path / "run.mcap"))).source == "/platform/odom"
+
+
+@pytest.mark.parametrize("platforms", ["body1", {"body1": 1}, [1, 2], 7])
+def test_platforms_that_are_no_list_of_names_are_refused(tmp_path, platforms):
+    with RecordingWriter(tmp_path / "m.mcap", {"platforms": platforms}) as writer:
+        writer.write("/platform/odom", ODOMETRY, serialize_message(odometry(STAMPS[0], POSES[0], CHILD[0])), 0)
+    with pytest.raises(ValueError, match="recorded parameter platforms is .*, expected a list of names"):
+        load_motion(tmp_path / "m.mcap")
+
+
+def test_a_recording_with_platforms_has_a_pose_for_each(tmp_path):
+    poses = np.stack([POSES[:5], POSES[5:10]], axis=1)
+    records = [schedule.encode_settle(0.0, poses[0])] + [schedule.encode_step(0.1 * k, poses[k], np.full((2, 6), 0.1 * k)) for k in range(1, 5)]
+    with RecordingWriter(tmp_path / "m.mcap", {"platforms": ["body1", "body2"]}) as writer:
+        for k, record in enumerate(records):
+            writer.write("/mooring/steps", schedule.TYPE_NAME, serialize_message(Float64MultiArray(data=record)), k)
+    motion = load_motion(tmp_path / "m.mcap")
+    assert motion.platforms == ("body1", "body2") and np.array_equal(motion.poses, poses) and motion.twists.shape == (5, 2, 6)
+    with RecordingWriter(tmp_path / "short.mcap", {"platforms": ["body1", "body2", "body3"]}) as writer:
+        writer.write("/mooring/steps", schedule.TYPE_NAME, serialize_message(Float64MultiArray(data=records[0])), 0)
+    with pytest.raises(ValueError, match="28 numbers: expected 41"):
+        load_motion(tmp_path / "short.mcap")
