@@ -33,6 +33,7 @@ def coupled(tmp_path, monkeypatch):
         process, peer = running.__enter__()
         closing.append(lambda: running.__exit__(None, None, None))
         peer.wait_for_node()
+        peer.node.destroy_publisher(peer._odometry)     # two would be a warning
         monkeypatch.setenv("ROS_DOMAIN_ID", str(peer.node.context.get_domain_id()))
         mooring = Coupling(STEP, clock=True, patience=5.0)
         closing.append(mooring.close)
