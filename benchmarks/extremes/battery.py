@@ -152,7 +152,7 @@ def stays(scene, motion, track):
 
 def as_from_zero(scene, motion, track):
     """The same run with a clock that starts at 0."""
-    _, history = ours(scene, motion)
+    _, history = ours(scene, motion, solver=track.solver)
     return same_history(Track(track.times - track.times[0] + motion.times[0], track.fairlead), track_of(history), 1e-4)
 
 

@@ -34,6 +34,7 @@ class Track:
     times: np.ndarray  # (k,) s
     fairlead: np.ndarray  # (k, lines) N
     anchor: np.ndarray | None = None  # (k, lines) N; not every peer says
+    solver: str = "auto"  # of ours; what a peer does is held against ours as it comes
 
 
 @dataclass(frozen=True)
@@ -74,8 +75,8 @@ def from_claims(claims):
     return Verdict(RIGHT if worst.error <= worst.allowed else WRONG, words, tuple(claims))
 
 
-def track_of(history, anchors=True):
-    return Track(history.time, history.fairlead_tension, history.anchor_tension if anchors else None)
+def track_of(history, anchors=True, solver="auto"):
+    return Track(history.time, history.fairlead_tension, history.anchor_tension if anchors else None, solver)
 
 
 def finite(history):
@@ -129,4 +130,4 @@ def judge(case, solver="auto"):
         return Verdict(NOT_A_NUMBER, "a reading is not a finite number, or a line pushes")
     if case.refused and case.claims is None:
         return Verdict(WRONG, f"was not refused with {case.refused!r}")
-    return from_claims([*action_and_reaction(mooring, history), *case.claims(scene, motion, track_of(history))])
+    return from_claims([*action_and_reaction(mooring, history), *case.claims(scene, motion, track_of(history, solver=solver))])

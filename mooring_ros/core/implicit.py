@@ -1,8 +1,8 @@
 """Implicit time stepping over one interval between two samples of the platform's motion: generalised-alpha with Newton's method.
 
 Steps are as long as the motion, the curves of the lines and the waves across them allow; axial waves, internal damping, bending and the bed's
-stiffness do not limit them. A step whose forces do not come to balance, or in which tensions leap, is taken in two halves, down to FINEST (leaps: to
-an eighth), and the finer step is kept for a while. So a step costs at most FINEST * (1 + MOST_ITERATIONS * (1 + SEARCHES)) evaluations.
+stiffness do not limit them. A step whose forces do not come to balance, or in which tensions jump, is taken in two halves, down to FINEST (jumps: to
+SUDDEN_PIECES), and the finer step is kept for a while. So a step costs at most FINEST * (1 + MOST_ITERATIONS * (1 + SEARCHES)) evaluations.
 """
 
 from dataclasses import replace
@@ -14,7 +14,8 @@ from .explicit import DONE, MOST_STEPS, OVERSTRETCHED, RUNAWAY, SURFACE_MARGIN, 
 from .explicit import look_at_surface, remember_grip
 from .failures import part
 from .forces import evaluate_in_place
-from .guard import FASTEST, IMPLAUSIBLE, copy_row, copy_rows, keep_tension, overstretched, recall, runaway, save, speed_of_ends
+from .guard import EVEN, FASTEST, IMPLAUSIBLE, copy_row, copy_rows, keep_tension, overstretched, recall, runaway, save, speed_of_ends, tension_jumped
+from .implicit_gates import forget_landings
 from .implicit_newton import LOOSE, NEWTON_DONE, TOLERANCE, Work, balance_step, keep_start, return_to_start, scheme_of
 from .implicit_parts import share_accelerations
 from .implicit_plan import make_topology
@@ -26,11 +27,12 @@ from .waves import copy_window, outdated, refresh
 
 PARTED = 16  # status besides those of explicit.py: lines have parted, the equations must be listed again
 FINEST = 256  # parts of a step that are tried
-SUDDEN, SUDDEN_PIECES = 1.0, 8  # see `leapt`; parts of a step that are tried for it
+SUDDEN, SUDDEN_PIECES = 0.08, 32  # of a tension and the line's weight: its change in a step that is too much; parts of a step that are tried for it
 KEPT = 8  # steps for which a finer step is kept
 SPECTRAL_RADIUS = 0.6
 LONGEST, STEPS_A_SWING = 0.05, 50.0  # s; of the step that is taken when none is given
 UNDAMPED = 0.2  # of it where no water takes the waves across the lines away
+HARD_BED, ON_HARD_BED = 2e-3, 0.4  # s, of StepLimit's bed damping: below, what lands stops at once and the line rings; the step is so much shorter there
 SMOOTHING = 1e-3  # s: samples closer than this share one mean acceleration
 LEAST_STRAIN = 1e-9
 ROUNDING = 16.0 * np.finfo(float).eps
@@ -60,15 +62,6 @@ def recall_start_accelerations(state, work):
 
 
 @stage
-def leapt(model, state, scratch):
-    """Whether a tension has grown by more than SUDDEN times itself and the line's weight: a wave, which a long step would take for a static strain."""
-    more = 0
-    for i in range(model.size + 1):
-        more |= state.tension[i] - scratch.tension[i] > SUDDEN * (scratch.tension[i] + model.tension_scale[i])
-    return more != 0
-
-
-@stage
 def coarsest(at, pieces):
     """Whether a step of twice the length, FINEST parts in all, can begin at part `at`."""
     return at % (2 * pieces) == 0 and 2 * pieces <= FINEST
@@ -89,16 +82,17 @@ def take_step(model, state, scratch, plan, work, scheme, h, start, share, fastes
         tolerance = LOOSE if pieces == 1 else TOLERANCE
         status, iterations, evaluations = balance_step(model, state, scratch, plan, work, scheme, piece, end, tolerance)
         report[0] += evaluations
-        sudden = pieces > FINEST // SUDDEN_PIECES and leapt(model, state, scratch)
+        sudden = pieces > FINEST // SUDDEN_PIECES and tension_jumped(model, state, scratch, SUDDEN) != EVEN
         if status == NEWTON_DONE and not sudden and not runaway(model, state, fastest):
             at += pieces
             report[1] += 1.0
             report[3] = min(report[3], piece)
+            forget_landings(model, state, scratch.bed, work.touched, work.moved[0], piece)
             share_accelerations(model, state)
             if state.grip.shape[1] > 0:
                 remember_grip(model, state, scratch)
             settings[4] += 1.0
-            if settings[4] >= KEPT and coarsest(at, pieces):
+            if settings[4] >= KEPT and coarsest(at, pieces) and tension_jumped(model, state, scratch, 0.5 * SUDDEN) == EVEN:
                 pieces, settings[4] = 2 * pieces, 0.0
         else:
             return_to_start(model, state, work)
@@ -193,7 +187,8 @@ def run(model, state, scratch, plan, work, scheme, longest, times, poses, twists
 
 
 def step_limit(scene, limit, dt=None):
-    """`limit`, the StepLimit of explicit steps, with the implicit step: `dt` (s), or what follows a line that swings, STEPS_A_SWING in sqrt(L / g)."""
+    """`limit`, the StepLimit of explicit steps, with the implicit step: `dt` (s), or what follows a line that swings, STEPS_A_SWING in sqrt(L / g);
+    less where nothing damps the waves across the lines, and on hard beds."""
     if dt is not None:
         return replace(limit, dt=float(dt), limited_by="dt")
     longest = max(line.length for line in scene.lines)
@@ -201,6 +196,8 @@ def step_limit(scene, limit, dt=None):
     step, why = min(own, LONGEST), "accuracy of the lines' own swings" if own < LONGEST else "accuracy of the motion"
     if scene.environment.water_density == 0.0 or any(line.type.drag_normal == 0.0 for line in scene.lines):
         step, why = UNDAMPED * step, "accuracy of waves that nothing damps"
+    elif limit.limits["bed damping"] < HARD_BED:
+        step, why = ON_HARD_BED * step, "accuracy of what lands on a hard bed"
     return replace(limit, dt=float(step), limited_by=why)
 
 

@@ -65,3 +65,24 @@ def saturated_friction(ground, state, i, push, n):
     axial = along * saturated_part(speed, speed, push, ground.static_axial, ground.kinetic_axial, ground.ramp, 0.0)
     side = saturated_part(drift, drift, push, ground.static_across, ground.kinetic_across, ground.ramp, 0.0)
     return axial * px + side * dx, axial * py + side * dy, axial * pz + side * dz
+
+
+@routine
+def forget_landings(model, state, bed, touched, start, h):
+    """Take from the accelerations of nodes that have come down in a step of h (s) what has stopped them; start (3, n): places at its start, m.
+
+    It was a blow, over within the step. Carried on by the filtered acceleration it would throw them up again, at 0.8 of the speed they came with.
+    """
+    for i in range(model.size):
+        if touched[i] == 0.0 or state.slaved[i]:
+            continue
+        n = (bed[1, i], bed[2, i], bed[3, i]) if model.ground.on else (0.0, 0.0, 1.0)
+        level = bed[0, i] if model.ground.on else model.bed_level
+        if start[2, i] <= level:
+            continue
+        rate = h * (model.bed_damping[i] + h * model.bed_stiffness[i]) / state.inertia_normal[i]
+        gone = rate * rate / (1.0 + rate * rate)
+        for accelerations in (state.acceleration, state.filtered):
+            along = accelerations[0, i] * n[0] + accelerations[1, i] * n[1] + accelerations[2, i] * n[2]
+            for k in range(3):
+                accelerations[k, i] -= gone * along * n[k]

@@ -28,7 +28,7 @@ from .rigid import turn_by
 
 MOST_ITERATIONS = 12
 SEARCHES = 4  # how often a Newton step is halved at most
-WORSE, BOLD = 2.0, 4  # times what was missed that a Newton step may leave: slack and contact come and go; in how many iterations
+WORSE, BOLD = 10.0, 4  # times what was missed that a Newton step may leave: slack and contact come and go, and the one after knows of it; in how many iterations
 LOOSE = 1e-2  # of Plan.scale: what may remain in the shortest piece of a step, where the bed's laws have no balance
 TOLERANCE = 1e-4  # of Plan.scale: forces out of balance that may remain
 NEWTON_DONE, NOT_BALANCED = 0, 1

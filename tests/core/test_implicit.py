@@ -95,6 +95,26 @@ def test_a_refused_step_leaves_the_bits_as_they_were():
         assert (mine == theirs).all()
 
 
+def test_what_lands_on_a_hard_bed_stays_down():
+    """A blow is over within its step: nodes do not spring up by a share of the way that they fell."""
+    kind = line_type(0.1, 100.0, 4e8, -0.5, drag=1.2, added=1.0, drag_axial=0.05)
+    made = anchored(kind, (300, 0, -100), (0, 0, -10), 335.0, 20, depth=100.0, bed_stiffness=1e9, bed_damping=1e7)
+    mooring = Mooring(made, solver="implicit", dt=0.05)
+    mooring.settle(HERE)
+    count = 160
+    poses, twists = np.tile(HERE, (count, 1)), np.zeros((count, 6))
+    poses[:, 2], twists[:, 2] = -2.0 * 0.05 * np.arange(1, count + 1), -2.0
+    height = [mooring.node_positions("line1")[:, 2] + 100.0]
+    for i in range(count):
+        mooring.step(0.05 * (i + 1), poses[i], twists[i])
+        height.append(mooring.node_positions("line1")[:, 2] + 100.0)
+    height = np.array(height)[:, 1:-1]
+    landed = (height[1:-1] < 0.002) & (height[:-2] > 0.01)
+    assert landed.sum() >= 2
+    fallen, risen = (height[:-2] - height[1:-1])[landed], (height[2:] - np.maximum(height[1:-1], 0.0))[landed]
+    assert (risen < 0.1 * fallen).all(), (risen, fallen)
+
+
 @pytest.mark.parametrize("radius", [-0.1, 1.1, np.nan])
 def test_a_spectral_radius_out_of_range_is_refused(radius):
     with pytest.raises(ValueError, match="spectral_radius"):

@@ -8,17 +8,6 @@ from mooring_ros import Mooring, MooringError
 
 CASES = list(battery.cases())
 SLOW = ("EA 1e11 N", "EA 1e13 N", "1 cm to 200 m", "5000 segments", "three days")  # with implicit steps
-NOT_YET = {  # what implicit steps of their default size do not do
-    "jump by 1 m": "one step takes the jump for a static strain",
-    "fairlead below the bed": "runs away",
-    "bed of 1e9 Pa/m": "smears the impacts on the bed",
-    "no water": "smears axial waves that nothing damps",
-    "no gravity, slack": "smears impacts",
-    "clock of the epoch": "0.5 % off what it gives from 0 s",
-    "half a turn in 50 ms": "refused",
-    "buoyant line pushed together": "refused",
-    "free point of 1e7 kg": "refused",
-}
 
 
 def must_end_as_expected(case, solver):
@@ -32,9 +21,7 @@ def test_extreme_ends_right_or_is_refused_as_expected(case):
 
 
 @pytest.mark.parametrize("case", [case for case in CASES if case.name not in SLOW and not case.name.startswith("file")], ids=lambda case: case.name)
-def test_extreme_with_implicit_steps(case, request):
-    if case.name in NOT_YET:
-        request.applymarker(pytest.mark.xfail(reason=NOT_YET[case.name]))
+def test_extreme_with_implicit_steps(case):
     must_end_as_expected(case, "implicit")
 
 
