@@ -119,11 +119,15 @@ class _Driver:
 
     def __enter__(self):
         end = time.monotonic() + START
-        while not (self._change.service_is_ready() and self._state.service_is_ready() and self._label() == "active"):
-            if time.monotonic() > end or self._process.poll() is not None:
-                raise RuntimeError("the node did not come up")
-            self._executor.spin_once(timeout_sec=0.1)
-        self._transition(Transition.TRANSITION_DEACTIVATE)
+        try:
+            while not (self._change.service_is_ready() and self._state.service_is_ready() and self._label() == "active"):
+                if time.monotonic() > end or self._process.poll() is not None:
+                    raise RuntimeError("the node did not come up")
+                self._executor.spin_once(timeout_sec=0.1)
+            self._transition(Transition.TRANSITION_DEACTIVATE)
+        except BaseException:
+            self.__exit__()
+            raise
         return self
 
     def __exit__(self, *_):

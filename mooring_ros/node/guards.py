@@ -20,10 +20,12 @@ def transition(callback):
 def live(callback):
     """Of what happens while the node is active: an exception that nobody expected is a fault, and the output goes to the static wrench.
 
-    The node has `fault(words)`.
+    An event that was waiting when the node was deactivated is nothing any more. The node has `active` and `fault(words)`.
     """
     @functools.wraps(callback)
     def guarded(self, *arguments):
+        if not self.active:
+            return None
         try:
             return callback(self, *arguments)
         except Exception as error:

@@ -310,11 +310,15 @@ class MooringNode(LifecycleNode):
             self._repeat(answers)
         self._after()
 
+    @property
+    def active(self):
+        """Whether there is a session."""
+        return self._session is not None
+
     def fault(self, words):
         """Something is wrong that nobody expected."""
-        if self._session is not None:
-            self._session.fault(words)
-            self._say_state()
+        self._session.fault(words)
+        self._say_state()
 
     def _repeat(self, stamp):
         self._outputs.repeat(stamp, self._outputs.answer(stamp, self._session), self._session.shown)

@@ -7,7 +7,8 @@ from mooring_ros.node import guards
 class Node:
     """As much of the node as the guards need."""
 
-    def __init__(self):
+    def __init__(self, active=True):
+        self.active = active
         self.said, self.faults = [], []
 
     def get_logger(self):
@@ -33,6 +34,11 @@ def test_an_exception_on_the_way_of_a_sample_is_a_fault_with_its_cause_and_its_p
     assert node.take(5) == 2 and not node.faults
     assert node.take(0) is None
     assert node.faults == ["ZeroDivisionError in take: integer division or modulo by zero"] and "test_guards.py" in node.said[0]
+
+
+def test_what_was_waiting_when_the_node_was_deactivated_is_nothing_any_more():
+    node = Node(active=False)
+    assert node.take(0) is None and node.take(5) is None and not node.faults and not node.said
 
 
 def test_an_exception_in_a_transition_is_an_error_of_it_with_its_place_in_the_log():
