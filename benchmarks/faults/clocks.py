@@ -56,6 +56,15 @@ def a_tenth_lost(rig):
     rig.expect("input", "steps were lost")
 
 
+@fault("a flood: 2000 samples as fast as they can be sent", "none needed: what the queue of 100 cannot hold is lost, the others are answered, in order")
+def flood(rig):
+    rig.send(20)
+    rig.mark()
+    rig.send(2000, answered=False)
+    rig.answer(rig.stamp - STEP)
+    rig.send(20)
+
+
 @fault("bunched: ten samples at once, then nothing for 0.2 s, ten times", "none needed: each is answered by its own stamp", quick=False)
 def bunched(rig):
     rig.send(5)

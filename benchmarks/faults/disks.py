@@ -134,7 +134,7 @@ def disk_slow(folder):
     return rig
 
 
-@fault("the recording's folder removed while it is written", "the wrenches go on; configure anew for a new recording", node=None)
+@fault("the recording's folder removed while it is written", "the wrenches go on; configure anew for a new recording", node=None, quick=False)
 def recording_removed(folder):
     with Rig(recorded(folder, "bag/run"), folder=folder) as rig:
         rig.send(100)
