@@ -4,7 +4,7 @@ import numpy as np
 
 from .angles import roll_pitch_yaw
 from .arguments import load_mooring, pose
-from .console import ComputationFailed, print_json, table
+from .console import ComputationFailed, UsageError, print_json, table
 
 _AXES = ("x", "y", "z", "rx", "ry", "rz")
 
@@ -13,16 +13,31 @@ def add_arguments(parser):
     parser.add_argument("scene", metavar="SCENE", help="MoorDyn v2 input file, or a recording that holds one")
     parser.add_argument(
         "--pose",
-        type=pose,
-        default=pose("0,0,0,0,0,0"),
-        metavar="X,Y,Z,ROLL,PITCH,YAW",
-        help="platform pose in m and degrees; roll, pitch, yaw about the fixed x, y, z axes in that order (default: all zero)",
+        type=_placed,
+        action="append",
+        default=[],
+        metavar="[NAME=]X,Y,Z,ROLL,PITCH,YAW",
+        help="platform pose in m and degrees; roll, pitch, yaw about the fixed x, y, z axes in that order (default: all zero); NAME=… with --platforms, "
+        "for each that is not where the file has put it",
     )
+    parser.add_argument("--platforms", metavar="NAME,NAME", help="coupled bodies that are platforms of their own (default: one, with all that is coupled)")
     parser.add_argument("--json", action="store_true", help="one JSON object on standard output, nothing else")
 
 
+def _placed(text):
+    """(name or None, pose (7,)) of [NAME=]X,Y,Z,ROLL,PITCH,YAW; for argparse."""
+    name, equals, numbers = text.rpartition("=")
+    return name if equals else None, pose(numbers)
+
+
 def run(args):
-    solution = solve(args.scene, args.pose)
+    names = args.platforms.split(",") if args.platforms is not None else None
+    last = dict(args.pose)
+    strange = [name for name in last if name not in (names or [None])]
+    if strange:
+        found = strange[0] or "a pose without a name"
+        raise UsageError(f"--pose: {found}, expected {f'NAME=… of {args.platforms}' if names else 'X,Y,Z,ROLL,PITCH,YAW without a name, or --platforms'}")
+    solution = solve(args.scene, last if names else last.get(None, pose("0,0,0,0,0,0")), names)
     if args.json:
         print_json(solution)
     else:
@@ -30,11 +45,16 @@ def run(args):
     return 0
 
 
-def solve(scene, pose):
-    """The static solution at a pose (7,), as the object that --json prints: N, N·m, world frame. Raises UsageError, ComputationFailed."""
+def solve(scene, pose, platforms=None):
+    """The static solution at a pose (7,), as the object that --json prints: N, N·m, world frame. Raises UsageError, ComputationFailed.
+
+    platforms: names; `pose` is then a dict of name -> pose (7,) of those that are not where the file has put them.
+    """
     from mooring_ros.mooring import MooringError
 
-    mooring = load_mooring(scene)
+    mooring = load_mooring(scene, platforms=platforms)
+    if platforms:
+        pose = [pose.get(name, there) for name, there in zip(platforms, mooring.pose_in_file)]
     try:
         mooring.settle(pose)
         stiffness = mooring.stiffness()
@@ -55,11 +75,22 @@ def solve(scene, pose):
     keys = ("name", "fairlead_tension", "anchor_tension", "fairlead_end_force", "anchor_end_force")
     return {
         "lines": [dict(zip(keys, line)) for line in lines],
-        "wrench": {"force": mooring.wrench[:3].tolist(), "torque": mooring.wrench[3:].tolist()},
+        **_wrench(mooring),
         "stiffness": np.asarray(stiffness).tolist(),
         "residual": float(found.residual),
         "iterations": int(found.iterations),
         **_parts(mooring),
+    }
+
+
+def _wrench(mooring):
+    if mooring.platforms is None:
+        return {"wrench": {"force": mooring.wrench[:3].tolist(), "torque": mooring.wrench[3:].tolist()}}
+    rows = zip(mooring.platforms, mooring.pose.tolist(), mooring.wrench.tolist())
+    return {
+        "platforms": [
+            {"name": name, "position": pose[:3], "quaternion": pose[3:], "wrench": {"force": wrench[:3], "torque": wrench[3:]}} for name, pose, wrench in rows
+        ]
     }
 
 
@@ -77,7 +108,11 @@ def _parts(mooring):
 
 
 def _text(scene, solution):
-    wrench = [*solution["wrench"]["force"], *solution["wrench"]["torque"]]
+    several = solution.get("platforms")
+    wrenches = [platform["wrench"] for platform in several] if several else [solution["wrench"]]
+    names = [platform["name"] for platform in several] if several else []
+    rows = [[*names[k : k + 1], *map(_number, _by_halves(wrench["force"] + wrench["torque"]))] for k, wrench in enumerate(wrenches)]
+    axes = [f"{name}.{axis}" for name in names for axis in _AXES] or _AXES
     ends = [
         [line["name"], end, _number(line[f"{end}_tension"]), *map(_number, _without_rounding(line[f"{end}_end_force"]))]
         for line in solution["lines"]
@@ -90,12 +125,12 @@ def _text(scene, solution):
             "Forces of the lines on what holds their ends, world axes (N)",
             table(["line", "end", "tension", "fx", "fy", "fz"], ends),
             "",
-            "On the platform, about its reference point, world axes (N, N·m)",
-            table(["fx", "fy", "fz", "mx", "my", "mz"], [map(_number, _by_halves(wrench))]),
+            "On each platform, about its body's origin, world axes (N, N·m)" if several else "On the platform, about its reference point, world axes (N, N·m)",
+            table([*([""] if several else []), "fx", "fy", "fz", "mx", "my", "mz"], rows),
             "",
             *_parts_text(solution),
             "Stiffness −∂wrench/∂pose (N/m, N/rad, N·m/m, N·m/rad)",
-            table(["", *_AXES], [[name, *map(_number, row)] for name, row in zip(_AXES, _without_rounding(solution["stiffness"]))]),
+            table(["", *axes], [[name, *map(_number, row)] for name, row in zip(axes, _without_rounding(solution["stiffness"]))]),
         ]
     )
 

@@ -1,5 +1,7 @@
 """`mooring static` and `mooring check`: the keys of the contract, and figures that are those of the façade."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -142,3 +144,30 @@ def test_check_hands_on_what_the_reader_warned_of(scene, mooring):
     scene.write_text(scene.read_text() + "0.001  dtM\n")
     warnings = mooring("check", scene, "--json").json()["warnings"]
     assert len(warnings) == 1 and "dtM is not used" in warnings[0]
+
+
+PAIR = Path(__file__).parents[2] / "config" / "scenes" / "oc4_pair.txt"
+
+
+def test_static_of_several_platforms_has_a_wrench_for_each_and_the_stiffness_between_them(mooring):
+    found = mooring("static", PAIR, "--platforms", "body1,body2", "--pose", "body2=510,0,-1,0,0,5", "--json").json()
+    moored = Mooring(PAIR, platforms=["body1", "body2"])
+    moored.settle([moored.pose_in_file[0], pose("510,0,-1,0,0,5")])
+    assert "wrench" not in found and found["stiffness"] == moored.stiffness().tolist()
+    assert [[*row["wrench"]["force"], *row["wrench"]["torque"]] for row in found["platforms"]] == moored.wrench.tolist()
+    assert [row["name"] for row in found["platforms"]] == ["body1", "body2"] and found["platforms"][0]["position"] == [-500.0, 0.0, 0.0]
+    text = mooring("static", PAIR, "--platforms", "body1,body2").out
+    assert "On each platform, about its body's origin" in text and "body2.rz" in text
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("--platforms", "body1,hull"), "no coupled body 'hull'"),
+        (("--platforms", "body1,body2", "--pose", "0,0,0,0,0,0"), "a pose without a name, expected NAME=… of body1,body2"),
+        (("--pose", "body1=0,0,0,0,0,0"), "body1, expected X,Y,Z,ROLL,PITCH,YAW without a name, or --platforms"),
+    ],
+)
+def test_poses_and_names_that_do_not_go_together_are_bad_usage(mooring, words, said):
+    outcome = mooring("static", PAIR, *words)
+    assert outcome.status == 2 and said in outcome.err
