@@ -29,25 +29,23 @@ LIGHTEST = 1e-30  # kg
 
 
 @stage
-def _mobilities(model, state, across, surplus, lift):
-    """Inverse inertia of the nodes, across I + surplus t t', with `lift` on vertical components for what the bed holds."""
+def _mobilities(model, state, across, surplus):
+    """Inverse inertia of the nodes, across I + surplus t t'; state.bed_relief goes on vertical components for what the bed holds."""
     normal, axial = state.inertia_normal, state.inertia_axial
     qx, qy, qz = state.tangent[0], state.tangent[1], state.tangent[2]
-    relief = state.bed_relief
     for i in range(model.size):
         tx, ty, tz = qx[i] + qx[i + 1], qy[i] + qy[i + 1], qz[i] + qz[i + 1]
         square = max(tx * tx + ty * ty + tz * tz, TINY)
         both = 1.0 / (normal[i] * axial[i] * square + 1e-300)
         across[i], surplus[i] = axial[i] * square * both, (normal[i] - axial[i]) * both
-        lift[i] = relief[i]
-    across[model.size], surplus[model.size], lift[model.size] = 0.0, 0.0, 1.0
+    across[model.size] = surplus[model.size] = 0.0
     for e in range(model.end_node.size):
         if state.end_point[e] != LOOSE:
             across[model.end_node[e]] = surplus[model.end_node[e]] = 0.0
 
 
 @stage
-def _rows(model, state, h, across, surplus, lift, gain, source, own, shared, pulls, stretch):
+def _rows(model, state, h, across, surplus, gain, source, own, shared, pulls, stretch):
     """For each segment: D, the right hand side, the diagonal and the coupling to the right of B W B', whether it looks as if it pulls (1 or 0),
     and how far it is beyond its length (m).
     """
@@ -56,7 +54,7 @@ def _rows(model, state, h, across, surplus, lift, gain, source, own, shared, pul
     lu, lv, lw = state.lead[0], state.lead[1], state.lead[2]
     qx, qy, qz = state.tangent[0], state.tangent[1], state.tangent[2]
     tension, rate, inertia = state.tension, state.strain_rate, state.inertia_axial
-    stiffness, damping, inverse_length, live = model.stiffness, model.damping, model.inverse_length, model.live
+    stiffness, damping, inverse_length, live, lift = model.stiffness, model.damping, model.inverse_length, model.live, state.bed_relief
     for i in range(model.size):
         ax, ay, az = qx[i], qy[i], qz[i]
         bx, by, bz = qx[i + 1], qy[i + 1], qz[i + 1]
@@ -161,12 +159,11 @@ def _add(n, h, gain, position, velocity, lead):
 def pull_implicitly(model, state, scratch, h):
     """Correct velocities and places that an explicit leapfrog step of h (s) has just reached; tangents, tensions, rates and inertia are still those of its start."""
     work = scratch.axial
-    across, surplus, lift, gain, source, own = work[0], work[1], work[2], work[3], work[4], work[5]
-    shared, pulls, diagonal, before, after, y = work[6], work[7], work[8], work[9], work[10], work[11]
-    stretch = work[12]
+    across, surplus, gain, source, own, shared = work[0], work[1], work[2], work[3], work[4], work[5]
+    pulls, stretch, diagonal, before, after, y = work[6], work[7], work[8], work[9], work[10], work[11]
     n, tension = model.size, state.tension
-    _mobilities(model, state, across, surplus, lift)
-    _rows(model, state, h, across, surplus, lift, gain, source, own, shared, pulls, stretch)
+    _mobilities(model, state, across, surplus)
+    _rows(model, state, h, across, surplus, gain, source, own, shared, pulls, stretch)
     joined = model.free_points.size > 0
     matrix, envelope, change = scratch.joints, scratch.envelope, scratch.joint_change
     for i in range(change.size):
@@ -181,13 +178,11 @@ def pull_implicitly(model, state, scratch, h):
             _solve(n, diagonal, before, after, y)
             move_joints(model, state, matrix, envelope, y, change)
             follow_joints(model, state, change, gain, 1.0, source)
-            _equations(n, gain, source, own, shared, pulls, diagonal, before, after, y)
-        else:
-            _equations(n, gain, source, own, shared, pulls, diagonal, before, after, y)
+        _equations(n, gain, source, own, shared, pulls, diagonal, before, after, y)
         _solve(n, diagonal, before, after, y)
         if not _pulls(n, h, own, shared, tension, stretch, pulls, y):
             break
-    _gains(n, state.tangent, across, surplus, lift, y, diagonal, before, after)
+    _gains(n, state.tangent, across, surplus, state.bed_relief, y, diagonal, before, after)
     if joined:
         give_to_nodes(model, state, change, diagonal, before, after)
     for k in range(3):

@@ -8,7 +8,6 @@ points that no line joins, and clusters of points far from each other in the fil
 import numpy as np
 
 from .cache import stage
-from .layout import POINT_FREE
 from .model import LOOSE
 
 SMALLEST = 1e-150  # of a line's answer at its other end: less is none
@@ -18,7 +17,14 @@ SMALLEST = 1e-150  # of a line's answer at its other end: less is none
 def _free_at(model, state, e):
     """Row of the free point that holds end e, or -1."""
     p = state.end_point[e]
-    return model.free_index[p] if p != LOOSE and model.point_kind[p] == POINT_FREE else -1
+    return model.free_index[p] if p != LOOSE else -1
+
+
+@stage
+def _end_segment(model, e):
+    """The segment at end e."""
+    line = e // 2
+    return model.first_node[line] + (model.segments[line] if e % 2 == 1 else 1)
 
 
 @stage
@@ -37,8 +43,7 @@ def _add_line(model, state, line, matrix, diagonal, before, after, gain, pulls):
     f, g = _free_at(model, state, 2 * line), _free_at(model, state, 2 * line + 1)
     if f < 0 and g < 0:
         return
-    a = model.first_node[line] + 1
-    b = a + model.segments[line] - 1
+    a, b = _end_segment(model, 2 * line), _end_segment(model, 2 * line + 1)
     pivot, across = diagonal[a], 1.0
     for i in range(a + 1, b + 1):
         across *= after[i - 1] / pivot
@@ -107,8 +112,7 @@ def move_joints(model, state, matrix, first, y, change):
     for e in range(model.end_node.size):
         f = _free_at(model, state, e)
         if f >= 0:
-            line = e // 2
-            segment = model.first_node[line] + (model.segments[line] if e % 2 == 1 else 1)
+            segment = _end_segment(model, e)
             sign = -1.0 if e % 2 == 1 else 1.0
             for k in range(3):
                 change[3 * f + k] += sign * q[k, segment] * y[segment]
@@ -130,8 +134,7 @@ def follow_joints(model, state, change, gain, sign, source):
     for e in range(model.end_node.size):
         f = _free_at(model, state, e)
         if f >= 0:
-            line = e // 2
-            segment = model.first_node[line] + (model.segments[line] if e % 2 == 1 else 1)
+            segment = _end_segment(model, e)
             side = sign if e % 2 == 1 else -sign
             rate = q[0, segment] * change[3 * f] + q[1, segment] * change[3 * f + 1] + q[2, segment] * change[3 * f + 2]
             source[segment] += side * gain[segment] * rate

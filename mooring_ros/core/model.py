@@ -26,7 +26,7 @@ from .sea import Sea, build_sea, fastest_water
 from .waves import WINDOW_ROWS, WORK_SIZE
 
 LANES = 8  # nodes: a whole number of vectors
-AXIAL_WORK = 13  # rows of work space of axial.py
+AXIAL_WORK = 12  # rows of work space of axial.py
 MOST_JOINTS = 600  # free points that axial.py solves for together
 LOOSE = -1  # an end that nothing holds any more
 

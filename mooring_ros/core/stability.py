@@ -109,7 +109,10 @@ def axial_waves_stand_alone(model):
 
     Friction answers to what pulls on a node within the step, and is not part of the solve.
     """
-    return not (model.ground.law != NO_FRICTION or model.ground.on and model.free_points.size or model.free_points.size > MOST_JOINTS or model.rigid.mass.size or model.ropes.curve_first.size or model.ropes.kelvin_first.size)
+    many = model.free_points.size > MOST_JOINTS
+    joined_on_ground = model.ground.on and model.free_points.size > 0
+    other_laws = model.ropes.curve_first.size + model.ropes.kelvin_first.size > 0
+    return not (model.ground.law != NO_FRICTION or joined_on_ground or many or model.rigid.mass.size > 0 or other_laws)
 
 
 def paces(scene, model, end_point):
