@@ -17,6 +17,7 @@ BENCHMARKS = {
     "extremes": "the battery of extremes beside MoorDyn, and ten thousand random scenes (an hour or two)",
     "guard": "what the guard against blow-ups costs",
     "kernel_cost": "ns for one node and force evaluation, against a bare vector kernel",
+    "implicit_steps": "implicit steps: how far off and how dear, beside explicit ones (half a minute)",
     "growth": "cost per node from 60 to 150 000 nodes, and a thousand platforms in real time (three minutes)",
     "effects": "a scene without an effect against builds in which that effect's stage is removed (half an hour the first time: it compiles them)",
     "bergdahl": "the 33 m laboratory chain: 30 measured maxima",
