@@ -36,7 +36,8 @@ FAILURE = TransitionCallbackReturn.FAILURE
 
 DIAGNOSTICS_PERIOD = 1.0    # s
 NEWS_PERIOD = 0.1           # s: what is new is told within it
-_BACKWARD = JumpThreshold(min_forward=None, min_backward=Duration(nanoseconds=-1), on_clock_change=False)
+# A simulation's clock that leaps by more (ns) has been set, or has just been heard for the first time: nothing was silent meanwhile.
+_JUMPS = JumpThreshold(min_forward=Duration(nanoseconds=500_000_000), min_backward=Duration(nanoseconds=-1), on_clock_change=False)
 
 
 def _velocity(values):
@@ -60,7 +61,7 @@ class MooringNode(LifecycleNode):
         self._access = parameters.declare(self, lambda: self._mooring is not None)
         self.add_post_set_parameters_callback(lambda _: self._apply_live_parameters())
         self._steady = Clock(clock_type=ClockType.STEADY_TIME)
-        self._resets, self._jumps = None, self.get_clock().create_jump_callback(_BACKWARD, post_callback=self._follow_clock)
+        self._resets, self._jumps = None, self.get_clock().create_jump_callback(_JUMPS, post_callback=self._follow_clock)
         self._diagnostics = Diagnostics(self.get_fully_qualified_name())
         self._reports, self._told, self._told_at, self._collected = Reports(self), None, 0.0, 0.0
         guards.refuse_unknown_transitions(self)
@@ -334,6 +335,8 @@ class MooringNode(LifecycleNode):
         self._pace.add(self._mooring.time, took, self._mooring.last_step)
         outputs.follow(stamp, answered)
         outputs.follow_stiffness(stamp, self._session.settles)
+        if outputs.stiffness.problem:
+            self.get_logger().warning(f"no stiffness: {outputs.stiffness.problem}", throttle_duration_sec=5.0)
 
     def _after(self):
         actions = self._session.actions()
@@ -388,11 +391,12 @@ class MooringNode(LifecycleNode):
         return self.get_clock().now().nanoseconds if self._simulated else time.monotonic_ns()
 
     def _follow_clock(self, jump):
-        """/clock has gone back."""
+        """/clock has leapt."""
         if self._session is None:
             return
-        self._resets.clock_went_back()
-        self._session.source.restart()
+        if jump.delta.nanoseconds < 0:
+            self._resets.clock_went_back()
+        self._session.forget_clock()
         if self._rate is not None:
             self._rate.restart()
 

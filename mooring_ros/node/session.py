@@ -226,6 +226,11 @@ class Session:
             return None
         return motion
 
+    def forget_clock(self):
+        """The clock has leapt: silence, and what the source's clock shows, count from here."""
+        self.source.restart()
+        self.watch.leap(self.clock())
+
     def _new_stream(self):
         """What comes from now on has nothing to do with the stamps and the arrivals before."""
         self.source.restart()

@@ -113,6 +113,11 @@ class Watch:
         """What comes next begins a new stream: the pause before it is none of its intervals."""
         self._heard, self._interval, self._intervals = None, 0.0, 0
 
+    def leap(self, now):
+        """The clock has leapt to now (ns): what has been heard until then counts from there."""
+        self._heard = None if self._heard is None else now
+        self._beat = None if self._beat is None else now
+
     def beat(self, now):
         """A heartbeat arrived at now (ns)."""
         self._beat = now

@@ -112,3 +112,19 @@ def test_nothing_is_lost_over_a_reset(restarted):
     else:
         steps.add(0)
     assert steps.lost == 0
+
+
+def test_a_clock_that_leaps_has_not_been_silent_and_the_sources_clock_is_learned_anew():
+    """The first sample comes before the first message on /clock, which begins at an hour."""
+    clock = [0]
+    made = Session(Mooring(SCENE), Gate(Adapter(), resets=Resets()), Output(), clock=lambda: clock[0])
+    hour = 3_600_000
+    assert made.observe(sample(hour), None) == hour * MS
+    clock[0] = hour * MS
+    made.forget_clock()
+    for k in range(1, 30):
+        clock[0] = (hour + 10 * k) * MS
+        made.observe(sample(hour + 10 * k, 0.001 * k), None)
+        made.tick()
+        made.tick()
+    assert made.state == RUN and made.steps == 29
