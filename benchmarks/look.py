@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from mcap.reader import make_reader
 from mcap_ros2.decoder import DecoderFactory
 
+from mooring_ros.node.messages import NODE_FIELDS
 from mooring_ros.offline.status_text import status_text
 
 from .faults.rig import STEP, Rig
@@ -21,7 +22,7 @@ SAMPLES = 2000          # in lockstep, before the terminal looks on
 SEEN = 400              # at 50 Hz, while it does
 COLOURS = {"31": "#e06c75", "32": "#98c379", "33": "#e5c07b", "35": "#c678dd", "36": "#56b6c2"}
 DARK, LIGHT = "#1e222a", "#d7dae0"
-_NODE = np.dtype([("x", "<f4"), ("y", "<f4"), ("z", "<f4"), ("tension", "<f4"), ("curvature", "<f4"), ("line", "<f4"), ("node", "<f4")])
+_NODE = np.dtype([(name, "<f4") for name in NODE_FIELDS])
 
 
 def run(quick=False):
@@ -33,18 +34,20 @@ def run(quick=False):
             sender = threading.Thread(target=rig.send, kwargs={"count": SEEN, "answered": False, "period": 1e-9 * STEP})
             sender.start()
             done = subprocess.run([sys.executable, "-m", "mooring_ros.offline", "status", "--json"], capture_output=True, text=True, check=True,
-                                  env={**_environment(), "ROS_DOMAIN_ID": str(rig.domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"})
+                                  env={**_environment(), "ROS_DOMAIN_ID": str(rig.domain)})
             sender.join()
             rig.answer(rig.stamp - STEP)
             rig.process.end()
         clouds, markers, lines = _recorded(file)
     text = status_text(json.loads(done.stdout), colour=True).replace(str(folder), "…")
-    figures = {"look_status.png": terminal("$ mooring status\n" + text), "look_tensions.png": scene(clouds[-1], markers[-1]), "look_time.png": history(lines)}
+    figures = {"look_status.png": terminal("$ mooring status\n" + text), "look_tensions.png": scene(clouds[-1], markers[-1]),
+               "look_time.png": history(lines)}
     return {"tables": {}, "failed": [], "figures": figures, "status": text}
 
 
 def _environment():
-    return {**os.environ, "PYTHONPATH": ":".join([str(Path(__file__).parents[1]), os.environ.get("PYTHONPATH", "")])}
+    path = ":".join([str(Path(__file__).parents[1]), os.environ.get("PYTHONPATH", "")])
+    return {**os.environ, "PYTHONPATH": path, "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
 
 
 def _recorded(file):

@@ -20,7 +20,7 @@ ARGUMENTS = {
     "namespace": ("", "Namespace of the node."),
     "name": ("mooring", "Name of the node."),
     "autostart": ("", "Configure and activate at start: true or false. Empty: as in params_file."),
-    "reach": ("", "Who may discover the node: LOCALHOST, SUBNET, OFF or SYSTEM_DEFAULT. Empty: ROS_AUTOMATIC_DISCOVERY_RANGE of the shell, else LOCALHOST."),
+    "reach": ("", f"Who may discover the node: {', '.join(REACHES)}. Empty: {REACH} of the shell, else LOCALHOST."),
     "recording": ("", "Record to this file or folder. Empty: as in params_file."),
 }
 

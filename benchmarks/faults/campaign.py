@@ -1,17 +1,18 @@
 """`./run bench faults`: all faults, one after the other, and the table of docs/faults.md."""
 import contextlib
+import re
 import sys
 import tempfile
 import time
 import traceback
 
-from .. import tables
-from . import clocks, commands, disks, inputs, modes, processes, sources  # noqa: F401  (they put their faults on the list)
+from . import clocks, commands, disks, inputs, modes, processes, sources
 from .judge import Wrong
 from .registry import FAULTS
 from .rig import Rig
 from .setups import SETUPS
 
+GROUPS = (inputs, clocks, modes, sources, commands, disks, processes)    # in the order of the table; importing them fills the list
 HEADER = ("fault", "shown in `/diagnostics` as", "after (s)", "wrenches checked", "recovery")
 
 
@@ -30,12 +31,24 @@ def run(quick=False, only=None):
     for node in dict.fromkeys(fault.node for fault in chosen):
         for fault, outcome in outcomes([fault for fault in chosen if fault.node == node]):
             print(f"{fault.name:<32} {outcome['verdict']}  {outcome['seconds']:.1f} s", flush=True)
-            rows.append([fault.what, *outcome["cells"], fault.recovery])
+            rows.append([fault.act.__module__, fault.what, *outcome["cells"], fault.recovery])
             worst = max(worst, outcome["worst"])
             if outcome["verdict"] != "ok":
                 failed.append(f"{fault.name}: {outcome['verdict']}")
-    words = f"{len(rows)} faults, {len(failed)} of them not as documented; wrenches at most {worst:.1e} of the largest force off a `Mooring` that was given the same samples."
-    return {"tables": {"faults": tables.table(HEADER, rows) + "\n\n" + words}, "failed": failed, "rows": rows, "worst": worst}
+    words = (f"{len(rows)} faults, {len(failed)} of them not as documented; wrenches at most {worst:.1e} of the largest force off a `Mooring` "
+             "that was given the same samples.")
+    return {"tables": {"faults": _table(rows) + "\n\n" + words}, "failed": failed, "rows": rows, "worst": worst}
+
+
+def _table(rows):
+    """Markdown, a table for each group. Cells are sentences, too long to be padded."""
+    parts = []
+    for group in GROUPS:
+        own = [row[1:] for row in rows if row[0] == group.__name__]
+        if own:
+            lines = ["| " + " | ".join(map(str, row)) + " |" for row in [HEADER, ["---"] * len(HEADER), *own]]
+            parts.append("\n".join([f"**{group.__doc__.splitlines()[0].rstrip('.')}**", "", *lines]))
+    return "\n\n".join(parts)
 
 
 def outcomes(faults):
@@ -70,11 +83,11 @@ def _outcome(fault, rig):
         return {"verdict": verdict, "cells": ["", "", ""], "worst": 0.0}
     shown = "; ".join(f"{name}: {_short(words)}" for name, words, _ in rig.shown)
     after = max((after for *_, after in rig.shown), default=None)
-    cells = [shown or "nothing: no fault to the node", "" if after is None else f"{after:.2f}", rig.judge.checked]
+    cells = [shown or "nothing: it is none to the node", "" if after is None else f"{after:.2f}", rig.judge.checked]
     worst, rig.judge.checked, rig.judge.worst = rig.judge.worst, 0, 0.0
     return {"verdict": verdict, "cells": cells, "worst": worst}
 
 
 def _short(words, most=110):
-    words = " ".join(words.split()).replace("|", "/")
+    words = re.sub(r"/tmp/mooring_faults_\w+", "…", " ".join(words.split())).replace("|", "/").removeprefix("refused: ")
     return words if len(words) <= most else words[:most] + " …"

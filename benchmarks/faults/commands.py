@@ -26,7 +26,8 @@ def parameters_refused(rig):
 def files_outside(rig):
     rig.send(20)
     assert rig.services.transition("deactivate") and rig.services.transition("cleanup")
-    for name, value in (("scene", "/etc/passwd"), ("recording.path", "/var/x.mcap"), ("recording.path", "../../../../var/x"), ("access.folders", "/")):
+    for name, value in (("scene", "/etc/passwd"), ("recording.path", "/var/x.mcap"), ("recording.path", "../../../../var/x"),
+                        ("access.folders", "/")):
         done, reason = rig.services.set(name, value)
         if done or "root:" in reason:
             raise Wrong(f"parameter {name} could be set to {value!r} over the graph, or the reason tells of the file: {reason}")
@@ -62,6 +63,18 @@ def parameters_changed(rig):
     rig.send(20)
 
 
+@fault("lifecycle transitions that there are none of: activate while active, cleanup while active, number 77", "each is refused, and nothing changes")
+def impossible_transitions(rig):
+    rig.send(20)
+    for label in ("activate", "configure", "cleanup", 77):
+        if rig.services.transition(label):
+            raise Wrong(f"the transition {label} succeeded while active")
+    if rig.services.state() != "active":
+        raise Wrong(f"the node is {rig.services.state()}, expected it to be active still")
+    rig.shown.append(("the service's answer", "no success", 0.0))
+    rig.send(20)
+
+
 @fault("100 lifecycle cycles, each down to unconfigured and back, with samples", "none needed", quick=False)
 def lifecycle_cycles(rig):
     _cycles(rig, 100)
@@ -90,15 +103,17 @@ def _cycles(rig, count):
         raise Wrong(f"the memory grew by {100.0 * grown:.0f} % over {count} lifecycle cycles")
 
 
-@fault("unstretched lengths that make no sense: unknown line, NaN, negative, zero, infinite, too few, none", "each message is refused as a whole, nothing changes")
+@fault("unstretched lengths that make no sense: unknown line, NaN, negative, zero, infinite, too few, none",
+       "each message is refused as a whole, nothing changes")
 def winch_nonsense(rig):
     rig.send(20)
     winch = rig.peer.publisher("/mooring/unstretched_lengths", _LENGTHS)
     while not winch.subscriber_count:
         rig.peer.wait(lambda: False, 0.01)
     rig.peer.wait(lambda: False, 0.3)
-    for names, lengths in ((["line9"], [800.0]), (["line1"], [math.nan]), (["line1"], [-5.0]), (["line1", "line2"], [800.0, 0.0]), (["line1"], [math.inf]),
-                           (["line1", "line2"], [800.0]), ([], []), (["line1", "line1"], [800.0, 801.0]), (["../../line1"], [800.0])):
+    for names, lengths in ((["line9"], [800.0]), (["line1"], [math.nan]), (["line1"], [-5.0]), (["line1", "line2"], [800.0, 0.0]),
+                           (["line1"], [math.inf]), (["line1", "line2"], [800.0]), ([], []), (["line1", "line1"], [800.0, 801.0]),
+                           (["../../line1"], [800.0])):
         rig.mark()
         winch.send({"name": names, "position": lengths})
     rig.expect("core", "unstretched lengths refused")

@@ -35,15 +35,19 @@ class Peer:
 
     def __init__(self, domain, reliability="reliable", node="/mooring"):
         self._node = rosless.Node(domain=domain)
-        self.odometry = self._node.advertise("/platform/odom", ODOMETRY, reliability=reliability, depth=1000)
+        self.odometry = self.publisher("/platform/odom", ODOMETRY, reliability)
         self.heard, self.statuses = [], []
         self._news = threading.Condition()
         self._open = True
         self._threads = [self._listen(f"{node}/wrench", WRENCH, self._take_wrench), self._listen("/diagnostics", DIAGNOSTICS, self._take_status)]
 
-    def publisher(self, topic, type_name):
-        """A reliable publisher; `send` takes dictionaries, `send_payload` bytes."""
-        return self._node.advertise(topic, type_name, reliability="reliable", depth=1000)
+    def publisher(self, topic, type_name, reliability="reliable"):
+        """A publisher; `send` takes dictionaries, `send_payload` bytes."""
+        return self._node.advertise(topic, type_name, reliability=reliability, depth=1000)
+
+    def subscription(self, topic, type_name):
+        """A reliable subscription; `read(timeout)` gives the next message, or None."""
+        return self._node.subscribe(topic, type_name=type_name, reliability="reliable", depth=1000)
 
     def wait_for_node(self, alive=lambda: True, timeout=START):
         """Until the node is active, which a subscriber on platform/odom means. Raises TimeoutError."""
@@ -71,7 +75,7 @@ class Peer:
             thread.join()
 
     def _listen(self, topic, type_name, take):
-        subscription = self._node.subscribe(topic, type_name=type_name, reliability="reliable", depth=1000)
+        subscription = self.subscription(topic, type_name)
 
         def listen():
             while self._open:

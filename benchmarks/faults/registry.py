@@ -5,7 +5,8 @@ FAULTS = []
 
 
 class Fault(NamedTuple):
-    """act(rig) does it, and raises Wrong when the node does what it must not. node: name in setups.SETUPS, None where `act` starts its own (act(folder)).
+    """act(rig) does it, and raises Wrong when the node does what it must not. node: name in setups.SETUPS, None where `act` starts its own
+    (act(folder), which returns its rig).
 
     recovery: what is documented, in words. quick: whether it belongs to the tests.
     """

@@ -1,5 +1,6 @@
 """A node process with its peer, services and judge, and what the faults do with them."""
 import itertools
+import math
 import os
 import re
 import tempfile
@@ -14,6 +15,7 @@ from .services import Services
 STEP = 20_000_000       # ns between samples, 50 Hz
 BEGIN = 10_000_000_000  # ns, the first stamp
 SHOWN_WITHIN = 0.5      # s
+PATIENCE = 3.0          # s more, to tell what comes late from what never comes
 _ANSWER = 5.0           # s
 _domains = itertools.count()
 
@@ -24,7 +26,11 @@ def free_domain():
 
 
 class Rig:
-    """A context: inside, the node runs. stamp: ns of the next good sample. shown: what diagnostics said, (status, words, s after the fault)."""
+    """A context: inside, the node runs.
+
+    stamp: ns of the next good sample; offset: ns by which stamps are ahead of the motion's time. shown: what diagnostics said, (status, words, s
+    after the fault).
+    """
 
     def __init__(self, parameters=None, file_size=None, folder=None, reliability="reliable", log=True):
         self._temporary = None if folder else tempfile.TemporaryDirectory(prefix="mooring_faults_")
@@ -32,7 +38,7 @@ class Rig:
         self._parameters, self._file_size = parameters or {}, file_size
         self.domain, self._reliability, self._log = free_domain(), reliability, log
         self.judge = Judge(SCENE)
-        self.stamp, self._offset = BEGIN, 0
+        self.stamp, self.offset = BEGIN, 0
         self._judged = 0
         self.shown, self.fault_at = [], None
         self.notes = []
@@ -75,19 +81,19 @@ class Rig:
         self.peer.statuses.clear()
         self._judged = 0
         self.judge.begin()
-        self.stamp, self._offset = BEGIN, 0
+        self.stamp, self.offset = BEGIN, 0
         self.shown, self.notes, self.fault_at = [], [], None
 
     # --- motion ---
 
     def state(self, stamp):
         """Where the platform is at a stamp (ns)."""
-        return motion.at((stamp - self._offset) * 1e-9)
+        return motion.at((stamp - self.offset) * 1e-9)
 
     def jump_clock(self, by):
         """The simulator's clock is set by so many ns; the motion goes on where it was."""
         self.stamp += by
-        self._offset += by
+        self.offset += by
 
     def send(self, count=1, answered=True, period=0.0):
         """Good samples, one after the other, each when the last one is answered; with answered=False without waiting, `period` s apart."""
@@ -130,9 +136,7 @@ class Rig:
     def silence(self, seconds):
         """Wait; raises Wrong if a sample is answered. What is held meanwhile goes out under the last stamp."""
         last = self.peer.heard[-1].stamp if self.peer.heard else None
-        new = self.peer.wait(lambda: next((heard for heard in reversed(self.peer.heard) if heard.stamp != last), None) if last is None
-                             else self.peer.heard[-1].stamp != last, seconds)
-        if new:
+        if self.peer.wait(lambda: self.peer.heard and self.peer.heard[-1].stamp != last, seconds):
             raise Wrong(f"a wrench with stamp {self.peer.heard[-1].stamp * 1e-9:.9f} s, expected none")
 
     def held(self, timeout=3.0):
@@ -151,6 +155,12 @@ class Rig:
                 raise Wrong(f"the output is not as computed within {timeout} s")
             self.send()
 
+    def unjudged(self):
+        """Leave what was heard so far to others to judge, but for numbers that are not finite."""
+        self._judged = len(self.peer.heard)
+        if not all(math.isfinite(x) for heard in self.peer.heard for x in heard.wrench):
+            raise Wrong("a wrench that is not finite")
+
     def judged(self):
         """Judge what was heard since the last time."""
         while self._judged < len(self.peer.heard):
@@ -164,25 +174,27 @@ class Rig:
         if self.fault_at is None:
             self.fault_at = time.monotonic()
 
-    def expect(self, name, words, within=0.0, level=1):
+    def expect(self, name, words, allowed=0.0, level=1):
         """Wait until /diagnostics shows the cause: status `name` of this level or above whose message matches the expression `words`.
 
-        within: s, where that may take longer than SHOWN_WITHIN.
+        allowed: s for which it is no fault yet.
         """
-        within = max(within, SHOWN_WITHIN)
+        within = SHOWN_WITHIN + allowed
         since, pattern = self.fault_at or time.monotonic(), re.compile(words)
 
         def found():
-            return next((s for s in self.peer.statuses if s.arrived >= since and s.name == name and s.level >= level and pattern.search(s.message)), None)
+            told = (s for s in self.peer.statuses if s.arrived >= since and s.name == name and s.level >= level)
+            return next((s for s in told if pattern.search(s.message)), None)
 
-        status = self.peer.wait(found, max(within, 3.0))
+        patience = within + PATIENCE
+        status = self.peer.wait(found, patience)
         if status is None:
             now = next((s for s in reversed(self.peer.statuses) if s.name == name), None)
-            raise Wrong(f"diagnostics of {name} do not say '{words}' within {max(within, 3.0)} s; they say {now and (now.level, now.message)}")
-        after = status.arrived - since
+            raise Wrong(f"diagnostics of {name} do not say '{words}' within {patience} s; they say {now and (now.level, now.message)}")
+        after = max(status.arrived - since - allowed, 0.0)
         self.shown.append((name, status.message, after))
-        if after > within:
-            raise Wrong(f"diagnostics of {name} said '{status.message}' after {after:.2f} s, expected {within} s")
+        if after > SHOWN_WITHIN:
+            raise Wrong(f"diagnostics of {name} said '{status.message}' after {after:.2f} s, expected {SHOWN_WITHIN} s")
         self.fault_at = None
         return status
 

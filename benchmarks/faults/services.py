@@ -33,9 +33,9 @@ class Services:
         return answer.success, answer.message
 
     def transition(self, label, timeout=60.0):
-        """Whether a lifecycle transition succeeded."""
+        """Whether a lifecycle transition succeeded; label: its name, or a number of none."""
         request = ChangeState.Request()
-        request.transition.id = TRANSITIONS[label]
+        request.transition.id = TRANSITIONS.get(label, label)
         return self._call("change_state", ChangeState, request, timeout).success
 
     def state(self, timeout=10.0):

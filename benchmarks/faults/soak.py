@@ -79,7 +79,8 @@ def soak(folder, minutes, rate):
     warm = memory[int(WARM_UP * len(memory)):]
     third = max(len(warm) // 3, 1)
     return {
-        "minutes": minutes, "rate": rate, "sent": len(sent), "missing": len(set(sent) - set(peer.stamps)), "doubled": len(stamps) - len(set(peer.stamps)),
+        "minutes": minutes, "rate": rate, "sent": len(sent),
+        "missing": len(set(sent) - set(peer.stamps)), "doubled": len(stamps) - len(set(peer.stamps)),
         "finite": peer.finite, "drift": _drift(arrivals, rate), "latest (ms)": 1e3 * late, "memory (MiB)": [m / 2**20 for m in memory],
         "growth (%)": 100.0 * (np.mean(warm[-third:]) / np.mean(warm[:third]) - 1.0), "status": status,
         "not recorded": {topic: len(sent) - count for topic, count in recorded.items() if count != len(sent)},

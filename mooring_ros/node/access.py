@@ -17,7 +17,8 @@ class Access:
     """
 
     def __init__(self, scene="", recording="", folders=""):
-        named = folders.split(os.pathsep) if folders else [".", tempfile.gettempdir(), *(os.path.dirname(_whole(path)) for path in (scene, recording) if path)]
+        beside = [os.path.dirname(_whole(path)) for path in (scene, recording) if path]
+        named = folders.split(os.pathsep) if folders else [".", tempfile.gettempdir(), *beside]
         self._started_with = {"scene": scene, "recording.path": recording}
         self.folders = tuple(dict.fromkeys(_whole(folder) for folder in named if folder))
 

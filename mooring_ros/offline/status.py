@@ -32,7 +32,8 @@ def run(args):
         if not listener.spin(args.wait, lambda: view.heard):
             raise ComputationFailed(_nobody(view, node, args.wait))
         if len(view.nodes) > 1 and node is None:
-            raise UsageError(f"mooring status: {len(view.nodes)} nodes are running ({', '.join(sorted(view.nodes))}), expected --node with one of them")
+            names = ", ".join(sorted(view.nodes))
+            raise UsageError(f"mooring status: {len(view.nodes)} nodes are running ({names}), expected --node with one of them")
         if args.once or args.json:
             listener.spin(_RATES_AFTER)
             picture = view.picture(time.monotonic())

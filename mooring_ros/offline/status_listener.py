@@ -44,7 +44,8 @@ class Listener:
 
     def _statuses(self, message):
         self._view.take_statuses(time.monotonic(), [
-            (status.name, int.from_bytes(status.level, "little"), status.message, status.hardware_id, {pair.key: pair.value for pair in status.values})
+            (status.name, int.from_bytes(status.level, "little"), status.message, status.hardware_id,
+             {pair.key: pair.value for pair in status.values})
             for status in message.status])
         if self._view.node and not self._subscribed:
             self._subscribed = True

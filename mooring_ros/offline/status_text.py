@@ -6,7 +6,8 @@ LEVELS = ("ok", "WARN", "ERROR", "stale")
 _COLOURS = ("32", "33", "31", "35")  # ANSI: green, yellow, red, magenta
 _BAR = 30  # characters
 # Values that are shown behind a status; the rest are counts at nought, or repeat the message.
-_TOLD = re.compile(r"delay|\(ms\)|\(Hz\)|factor|worst|missed|lost|doubled|step \(s\)|limited by|largest|written|steps|transitions|priority|\(s\)$|mode|damping|behind")
+_TOLD = re.compile(r"delay|\(ms\)|\(Hz\)|factor|worst|missed|lost|doubled|step \(s\)|limited by|largest|written|steps|transitions|priority|\(s\)$|mode|"
+                   "damping|behind")
 
 
 def status_text(picture, colour=False):

@@ -72,7 +72,8 @@ class View:
 
     def picture(self, now):
         """All of it as an object for JSON; numbers that are not known are null."""
-        wrenches = {name: {**wrench, "rate": self._rates[name].hertz(now), "age": self._rates[name].age(now)} for name, wrench in self._wrenches.items()}
+        wrenches = {name: {**wrench, "rate": self._rates[name].hertz(now), "age": self._rates[name].age(now)}
+                    for name, wrench in self._wrenches.items()}
         since = None if self._told is None else now - self._told
         return {
             "node": self.node,

@@ -43,5 +43,6 @@ def graph(folder, domain, **parameters):
             time.sleep(0.1)
         time.sleep(0.7)     # what was made after the subscription
         seen = node.graph()
-    return ({topic.name: topic.type_name for topic in seen.topics if topic.publishers}, {topic.name: topic.type_name for topic in seen.topics if topic.subscribers},
+    return ({topic.name: topic.type_name for topic in seen.topics if topic.publishers},
+            {topic.name: topic.type_name for topic in seen.topics if topic.subscribers},
             {topic.name.removesuffix("Request") for topic in seen.services if topic.name.endswith("Request") and topic.subscribers})

@@ -53,7 +53,8 @@ def test_folders_that_are_named_replace_all_others(places):
         access.check("scene", "scenes/b.txt")
 
 
-@pytest.mark.parametrize("file", ["../../tank-private/depths.txt", "{}/tank-private/depths.txt", "link/depths.txt", "..\\\\..\\\\tank-private\\\\depths.txt"])
+@pytest.mark.parametrize("file", ["../../tank-private/depths.txt", "{}/tank-private/depths.txt", "link/depths.txt",
+                                  "..\\\\..\\\\tank-private\\\\depths.txt"])
 def test_a_scene_from_the_graph_names_no_file_outside_and_tells_nothing_of_it(places, file):
     (places / "tank-private" / "depths.txt").write_text("secret words\n")
     os.symlink(places / "tank-private", places / "tank" / "scenes" / "link")

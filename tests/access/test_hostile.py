@@ -37,7 +37,8 @@ def hostile_recording(path, scene, attachments, encode=None):
     with open(path, "wb") as stream:
         writer = Writer(stream)
         writer.start(profile=Profile.ROS2)
-        writer.add_metadata("mooring_ros", {"recording.path": '"../../evil.mcap"', "scene": '"../depths.txt"', "solver": '"__import__(\'os\').system(\'id\')"'})
+        writer.add_metadata("mooring_ros", {"recording.path": '"../../evil.mcap"', "scene": '"../depths.txt"',
+                                            "solver": '"__import__(\'os\').system(\'id\')"'})
         writer.add_attachment(create_time=0, log_time=0, name="../../evil_scene.txt", media_type=SCENE_MEDIA_TYPE, data=scene.encode())
         for name, text in attachments:
             writer.add_attachment(create_time=0, log_time=0, name=name, media_type=OTHER_MEDIA_TYPE, data=text.encode())
@@ -70,8 +71,8 @@ def test_a_recording_whose_scene_names_a_file_outside_is_refused_without_reading
 
 
 def test_attachments_topics_and_parameters_that_lead_out_write_nothing_outside_and_run_nothing(places):
-    hostile_recording(places / "work" / "a.mcap", SCENE.format("60 WtrDpth\n../depths.txt").replace(" SeafloorFile", " SeafloorFile"),
-                      [("../depths.txt", "num_x 2\nnum_y 2\n-1e4 1e4\n"), ("/etc/evil.txt", "x"), ("../../evil.txt", "x")])
+    hostile_recording(places / "work" / "a.mcap", SCENE.format("60 WtrDpth").replace(" SeafloorFile", ""),
+                      [("../depths.txt", "60\n"), ("/etc/evil.txt", "x"), ("../../evil.txt", "x")])
     before = files_of(places)
     for arguments in (["check", "a.mcap"], ["replay", "a.mcap", "a.mcap", "-o", "out.mcap"], ["recover", "a.mcap", "-o", "whole.mcap"],
                       ["recover", "a.mcap", "-o", "whole"]):
@@ -90,7 +91,8 @@ def test_metadata_of_a_bag_that_names_files_outside_reads_none_of_them(places):
     bag.mkdir()
     hostile_recording(bag / "bag_0.mcap", SCENE.format("60 WtrDpth"), [])
     hostile_recording(places / "bag_1.mcap", SCENE.format("60 WtrDpth"), [])
-    (bag / "metadata.yaml").write_text("rosbag2_bagfile_information:\n  storage_identifier: mcap\n  relative_file_paths: [bag_0.mcap, ../../bag_1.mcap]\n")
+    (bag / "metadata.yaml").write_text("rosbag2_bagfile_information:\n  storage_identifier: mcap\n"
+                                       "  relative_file_paths: [bag_0.mcap, ../../bag_1.mcap]\n")
     with pytest.raises(ValueError, match="bag_1.mcap.*not there"):
         recover(bag, places / "work" / "out.mcap")
     assert not (places / "work" / "out.mcap").exists()

@@ -9,7 +9,10 @@ POLICY = ROOT / "config" / "sros2_policy.xml"
 
 
 def allowed(enclave):
-    """(kind, right) -> names as DDS knows them, of the one profile of an enclave. kind: topics or services; right: publish, subscribe, reply, request."""
+    """(kind, right) -> names as DDS knows them, of the one profile of an enclave.
+
+    kind: topics or services; right: publish, subscribe, reply, request.
+    """
     profiles = ElementTree.parse(POLICY).getroot().findall(f"./enclaves/enclave[@path='/{enclave}']/profiles/profile")
     assert [(profile.get("ns"), profile.get("node")) for profile in profiles] == [("/", enclave)]
     found = {}

@@ -6,7 +6,8 @@ import yaml
 from graph import ROOT
 
 VIEWERS = ROOT / "config" / "viewers"
-RVIZ_TYPES = {"rviz_default_plugins/MarkerArray": "visualization_msgs/msg/MarkerArray", "rviz_default_plugins/PointCloud2": "sensor_msgs/msg/PointCloud2",
+RVIZ_TYPES = {"rviz_default_plugins/MarkerArray": "visualization_msgs/msg/MarkerArray",
+              "rviz_default_plugins/PointCloud2": "sensor_msgs/msg/PointCloud2",
               "rviz_default_plugins/Odometry": "nav_msgs/msg/Odometry"}
 # Fields that the plots draw, by type.
 FIELDS = {"sensor_msgs/msg/JointState": r"effort\[\d\]|position\[\d\]", "geometry_msgs/msg/WrenchStamped": r"wrench\.(force|torque)\.[xyz]",

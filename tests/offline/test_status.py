@@ -35,7 +35,8 @@ def test_the_picture_tells_states_rates_delay_tensions_and_the_worst_step():
     assert picture["wrench"]["rate"] == pytest.approx(200.0) and picture["wrench"]["age"] == 0.0 and picture["wrench"]["stamp"] == 11.0
     assert picture["lines"][0] == {"name": "line1", "length": 836.2, "length_rate": 0.1, "fairlead_tension": 1e6, "highest_tension": 1.049e6}
     text = status_text(picture)
-    for words in ("/mooring: WARN", "RUN", "refused: jump", "lost steps 3", "input to wrench p99 (ms) 1.250", "worst step (ms) 4.689", "200.0 Hz", "line2"):
+    for words in ("/mooring: WARN", "RUN", "refused: jump", "lost steps 3", "input to wrench p99 (ms) 1.250",
+                  "worst step (ms) 4.689", "200.0 Hz", "line2"):
         assert words in text
     assert "camera" not in text and "\x1b" not in text and "\x1b[33mWARN" in status_text(picture, colour=True)
 
