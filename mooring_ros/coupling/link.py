@@ -49,15 +49,15 @@ class MooringLink:
     """Publishes the platform's Odometry and takes the mooring's wrench on a rclpy node.
 
     stop: called without arguments, tells whether to stop; waits then raise Stopped. odometry: topic; mooring: name of the mooring node;
-    world, platform: frames in the headers. counts: Counts.
+    wrench: topic of its answer, below that name; world, platform: frames in the headers. counts: Counts.
     """
 
-    def __init__(self, node, stop=lambda: False, odometry=ODOMETRY_TOPIC, mooring=MOORING, world=WORLD, platform=PLATFORM):
+    def __init__(self, node, stop=lambda: False, odometry=ODOMETRY_TOPIC, mooring=MOORING, world=WORLD, platform=PLATFORM, wrench="wrench"):
         self.counts = Counts()
         self._node, self._stop, self._mooring = node, stop, mooring
         self._world, self._platform = world, platform
         self._publisher = node.create_publisher(Odometry, odometry, QoSProfile(depth=10))
-        self._subscription = node.create_subscription(WrenchStamped, f"{mooring}/wrench", self._take, QoSProfile(depth=10))
+        self._subscription = node.create_subscription(WrenchStamped, f"{mooring}/{wrench}", self._take, QoSProfile(depth=10))
         self._executor = EventsExecutor(context=node.context)
         self._executor.add_node(node)
         self._sent = {}  # stamp -> (perf_counter of sending, quaternion), for samples not answered yet

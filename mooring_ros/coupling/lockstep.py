@@ -30,18 +30,21 @@ class Coupling:
     step: s of simulated time between samples. scheme: `extrapolated`, `stiffness` or `held`, see schemes. start: s, simulated time of the first
     sample; zero means "not set" in ROS. timeout: s of wall time, for the first answer; patience: s, for each one after. clock: publish /clock with
     every sample, for a node with `use_sim_time`. node: a rclpy node to use; else one of this name is made, in a context of its own.
-    stop, odometry, mooring, world, platform: see MooringLink.
+    stop, odometry, mooring, world, platform: see MooringLink. body: which platform this is, where the mooring node has several (docs/platforms.md): each
+    may be simulated by a process of its own, all with the same step and start. The scheme `stiffness` is for one platform.
 
     time: s, of the last sample sent. wrench (6,): the last answer; round_trip: s, it took. counts: see link.Counts.
     stiffness (6, 6): −∂wrench/∂pose as last heard, or None.
     """
 
     def __init__(self, step, scheme="extrapolated", start=1.0, timeout=60.0, patience=5.0, clock=False, node=None, name="simulator",
-                 stop=lambda: False, odometry=ODOMETRY_TOPIC, mooring=MOORING, world=WORLD, platform=PLATFORM):  # fmt: skip
+                 stop=lambda: False, odometry=None, mooring=MOORING, world=WORLD, platform=None, body=None):  # fmt: skip
         if not 0.0 < step < np.inf:
             raise ValueError(f"step is {step!r}, expected a positive number of seconds")
         if scheme not in SCHEMES:
             raise ValueError(f"scheme is {scheme!r}, expected one of {', '.join(SCHEMES)}")
+        if body and SCHEMES[scheme].needs_stiffness:
+            raise ValueError(f"scheme is {scheme!r}, which is for one platform, expected another one for {body}")
         self.step, self.timeout, self.patience = float(step), timeout, patience
         self.stiffness = self.wrench = self.round_trip = None
         self._make_scheme, self._scheme = SCHEMES[scheme], None
@@ -57,7 +60,9 @@ class Coupling:
         latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self._stiffness_subscription = node.create_subscription(Float64MultiArray, f"{mooring}/stiffness", self._take_stiffness, latched)
         self._clock = node.create_publisher(Clock, "/clock", QoSProfile(depth=10)) if clock else None
-        self._link = MooringLink(node, stop, odometry, mooring, world, platform)
+        below = f"platforms/{body}/" if body else ""
+        odometry = odometry or (f"{below}odom" if body else ODOMETRY_TOPIC)
+        self._link = MooringLink(node, stop, odometry, mooring, world, platform or body or PLATFORM, f"{below}wrench")
 
     @property
     def counts(self):
