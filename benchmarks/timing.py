@@ -171,8 +171,9 @@ class _Driver:
             raise RuntimeError("the node refused a transition")
 
     def _label(self):
-        future = self._state.call_async(GetState.Request())
-        self._executor.spin_once(timeout_sec=0.1)
+        future, end = self._state.call_async(GetState.Request()), time.monotonic() + 1.0
+        while not future.done() and time.monotonic() < end:
+            self._executor.spin_once(timeout_sec=0.1)
         return future.result().current_state.label if future.done() else ""
 
     def _wait(self, condition):

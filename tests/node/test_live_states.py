@@ -28,7 +28,7 @@ def told(status):
 
 def test_an_input_that_stops_is_followed_by_the_ramp_to_the_static_wrench_and_one_that_comes_back_by_the_answers(tmp_path):
     file = tmp_path / "run.mcap"
-    with node_and_peer(tmp_path, limits__input_age=0.3, recording__enabled=True, recording__path=str(file)) as (process, peer):
+    with node_and_peer(tmp_path, limits__input_age=1.0, recording__enabled=True, recording__path=str(file)) as (process, peer):
         peer.wait_for_node()
         states, clock = [], peer.node.get_clock()
         peer.node.create_subscription(DiagnosticStatus, "mooring/state", states.append, QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL))
@@ -39,7 +39,7 @@ def test_an_input_that_stops_is_followed_by_the_ramp_to_the_static_wrench_and_on
             peer.spin(0.05)
         peer.wait(lambda: len(peer.wrenches) == 30)
         answer = numbers(peer.wrenches[-1])
-        peer.diagnostic("state", lambda level, values, _: level == WARN and values["state"] == HOLD, timeout=0.8)
+        peer.diagnostic("state", lambda level, values, _: level == WARN and values["state"] == HOLD, timeout=10.0)
         peer.spin(1.5)
         held = peer.wrenches[30:]
         assert len(held) > 100 and {round(stamp_of(m), -4) for m in held} == {round(stamp_of(peer.wrenches[29]), -4)}
@@ -50,7 +50,7 @@ def test_an_input_that_stops_is_followed_by_the_ramp_to_the_static_wrench_and_on
             peer.spin(0.05)
         peer.diagnostic("state", lambda level, values, _: level == OK and values["state"] == RUN)
         assert [status.message for status in states] == [RAMP, RUN, HOLD, RAMP, RUN]
-        assert told(states[2])["cause"].startswith("no good input for 0.3") and "RUN -> HOLD, input lost: no good input" in process.log
+        assert told(states[2])["cause"].startswith("no good input for 1.") and "RUN -> HOLD, input lost: no good input" in process.log
         assert peer.transition("deactivate")
         peer.wait(lambda: states[-1].message == IDLE)
         process.end()
@@ -70,7 +70,7 @@ def test_an_input_that_stops_is_followed_by_the_ramp_to_the_static_wrench_and_on
 
 
 def test_a_lost_heartbeat_is_a_fault_until_somebody_settles(tmp_path):
-    with node_and_peer(tmp_path, limits__heartbeat=0.4, ramp_time=0.5) as (_, peer):
+    with node_and_peer(tmp_path, limits__heartbeat=1.0, ramp_time=0.5) as (_, peer):
         beats = peer.node.create_publisher(Empty, "mooring/heartbeat", 10)
         peer.wait_for_node()
         peer.wait(lambda: beats.get_subscription_count())
@@ -83,7 +83,7 @@ def test_a_lost_heartbeat_is_a_fault_until_somebody_settles(tmp_path):
             peer.ask(0.05 * k)
         peer.diagnostic("state", lambda level, values, _: values["state"] == RUN)
         _, values, _ = peer.diagnostic("state", lambda level, values, _: level == ERROR and values["state"] == SAFE)
-        assert values["cause"].startswith("no heartbeat for 0.4")
+        assert values["cause"].startswith("no heartbeat for 1.")
         reply = peer.call("mooring/settle")
         assert not reply.success and "heartbeat" in reply.message
         beats.publish(Empty())
