@@ -221,6 +221,27 @@ def ahead(rig):
     _wall_on(rig)
 
 
+@fault("`use_sim_time` switched on in full run, with no /clock", "switch it off: the next good sample is answered", node="age", quick=False)
+def sim_time_switched(rig):
+    _wall(rig)
+    rig.judge.held()
+    rig.mark()
+    if not rig.services.set("use_sim_time", True)[0]:
+        raise Wrong("use_sim_time cannot be set, expected every ROS node to let it")
+    for _ in range(20):
+        rig.send_at(time.time_ns(), good=False)
+        time.sleep(0.02)
+    rig.expect("input", "ahead: stamp is", allowed=0.4)
+    rig.services.set("use_sim_time", False)
+    rig.judged()
+    for number in range(1000):
+        rig.stamp = time.time_ns()
+        rig.send()
+        if number > 20 and not rig.judge.blends:
+            break
+        time.sleep(0.005)
+
+
 def _wall(rig):
     """Samples by the wall clock."""
     rig.stamp = rig.offset = time.time_ns()
