@@ -1,4 +1,5 @@
 """The pictures of docs/look.md: a real run of the node, its recording drawn, and what `mooring status` says meanwhile."""
+import itertools
 import json
 import os
 import re
@@ -118,8 +119,8 @@ def history(lines):
     times, names, tensions = lines
     figure = Figure(figsize=(9, 3), layout="constrained")
     axes = figure.add_subplot()
-    for name, tension in zip(names, tensions.T):
-        axes.plot(times, tension / 1e3, label=name)
+    for name, tension, style in zip(names, tensions.T, itertools.cycle(("-", "--", ":"))):     # lines on both sides coincide
+        axes.plot(times, tension / 1e3, style, label=name)
     axes.set_xlabel("stamp (s)")
     axes.set_ylabel("fairlead tension (kN)")
     axes.legend(loc="upper right")
