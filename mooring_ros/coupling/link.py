@@ -4,21 +4,16 @@ Samples carry simulated time. A stamp is never sent twice: to the mooring node t
 matched by their stamp; what is missing, comes twice or comes too late is counted.
 """
 
-import math
 import time
 from dataclasses import dataclass
 
 import numpy as np
-from geometry_msgs.msg import WrenchStamped
 from lifecycle_msgs.msg import State
 from lifecycle_msgs.srv import GetState
-from nav_msgs.msg import Odometry
 from rclpy.experimental.events_executor import EventsExecutor
-from rclpy.qos import QoSProfile
 
-from mooring_ros.motion import rotation
+from mooring_ros.coupling.channel import ODOMETRY_TOPIC, Channel, rows, stamp_of
 
-ODOMETRY_TOPIC = "platform/odom"
 MOORING = "mooring"
 WORLD, PLATFORM = "world", "platform"
 _POLL = 0.1  # s, how long a wait may go on before it looks whether to stop
@@ -45,24 +40,35 @@ class Counts:
     late: int = 0
 
 
-class MooringLink:
-    """Publishes the platform's Odometry and takes the mooring's wrench on a rclpy node.
+@dataclass
+class _Sample:
+    """One that is not answered yet: perf_counter of sending, poses, and the wrenches there are (None: to come), each of a platform."""
 
-    stop: called without arguments, tells whether to stop; waits then raise Stopped. odometry: topic; mooring: name of the mooring node;
-    wrench: topic of its answer, below that name; world, platform: frames in the headers. counts: Counts.
+    sent: float
+    poses: list
+    wrenches: list
+
+
+class MooringLink:
+    """Publishes the Odometry of one platform, or of several, and takes the mooring's wrenches on a rclpy node.
+
+    stop: called without arguments, tells whether to stop; waits then raise Stopped. platforms: names of several; then the topics are
+    platforms/NAME/odom, the frames in the headers their names, and poses, twists and wrenches have a leading axis. Else, odometry: topic; wrench: topic of its
+    answer, below the mooring node's name; platform: frame. mooring: name of the mooring node; world: frame. counts: Counts.
     """
 
-    def __init__(self, node, stop=lambda: False, odometry=ODOMETRY_TOPIC, mooring=MOORING, world=WORLD, platform=PLATFORM, wrench="wrench"):
+    def __init__(self, node, stop=lambda: False, odometry=ODOMETRY_TOPIC, mooring=MOORING, world=WORLD, platform=PLATFORM, wrench="wrench", platforms=()):
         self.counts = Counts()
         self._node, self._stop, self._mooring = node, stop, mooring
-        self._world, self._platform = world, platform
-        self._publisher = node.create_publisher(Odometry, odometry, QoSProfile(depth=10))
-        self._subscription = node.create_subscription(WrenchStamped, f"{mooring}/{wrench}", self._take, QoSProfile(depth=10))
+        self._several = len(platforms)
+        self._channels = [
+            Channel(node, f"platforms/{name}/odom", f"{mooring}/platforms/{name}/wrench", world, name, self._take) for name in platforms
+        ] or [Channel(node, odometry, f"{mooring}/{wrench}", world, platform, self._take)]
         self._executor = EventsExecutor(context=node.context)
         self._executor.add_node(node)
-        self._sent = {}  # stamp -> (perf_counter of sending, quaternion), for samples not answered yet
+        self._sent = {}  # stamp -> _Sample
         self._answers = {}  # stamp -> (wrench, round trip in s)
-        self._given_up = set()  # stamps
+        self._given_up = {}  # stamp -> wrenches that may still come
         self._before = set()  # stamps of samples that nothing is counted of
         self._problem = ""
 
@@ -71,7 +77,7 @@ class MooringLink:
         end = time.monotonic() + timeout
         state = _NodeState(self._node, self._mooring)
         missing = f"nobody answers on {self.topics}"
-        while not (self._publisher.get_subscription_count() and self._subscription.get_publisher_count()):
+        while not all(channel.matched for channel in self._channels):
             self._check(end, missing, timeout)
             self._executor.spin_once(timeout_sec=_POLL)
             if state.unconfigured_for() > _LONGEST_UNCONFIGURED:
@@ -82,7 +88,7 @@ class MooringLink:
         state.close()
 
     def greet(self, stamps, pose, timeout, patience=1.0):
-        """Send the pose (7,) at rest, at one stamp (ns) of the iterator after the other, until one is answered.
+        """Send the pose (7,), or (platforms, 7), at rest, at one stamp (ns) of the iterator after the other, until one is answered.
 
         Being discovered is not yet being heard: an answer may be sent before this side can hear it. Unanswered samples are followed
         by later ones, each after a while (patience, s), and not counted. Returns the stamp that was answered and its wrench (6,).
@@ -90,7 +96,7 @@ class MooringLink:
         """
         end = time.monotonic() + timeout
         while True:
-            self.send(next(stamps), pose, np.zeros(6))
+            self.send(next(stamps), pose, np.zeros((*np.shape(pose)[:-1], 6)))
             until = min(end, time.monotonic() + patience)
             while not self._answers and time.monotonic() < until:
                 self._check(end, "the mooring node does not answer", timeout)
@@ -104,19 +110,11 @@ class MooringLink:
 
         Raises ValueError for what is no motion; the mooring node would refuse it.
         """
-        pose, twist = checked(pose, 7, "pose"), checked(twist, 6, "twist")
-        message = Odometry()
-        message.header.frame_id, message.child_frame_id = self._world, self._platform
-        message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp, 1_000_000_000)
-        position, orientation = message.pose.pose.position, message.pose.pose.orientation
-        position.x, position.y, position.z, orientation.x, orientation.y, orientation.z, orientation.w = pose
-        to_body = rotation.conjugate(pose[3:])
-        linear, angular = message.twist.twist.linear, message.twist.twist.angular
-        linear.x, linear.y, linear.z = rotation.rotate(to_body, twist[:3])
-        angular.x, angular.y, angular.z = rotation.rotate(to_body, twist[3:])
+        poses, twists = rows(pose, 7, self._several, "pose"), rows(twist, 6, self._several, "twist")
         self.counts.sent += 1
-        self._sent[stamp] = time.perf_counter(), pose[3:]
-        self._publisher.publish(message)
+        self._sent[stamp] = _Sample(time.perf_counter(), poses, [None] * len(poses))
+        for channel, own_pose, own_twist in zip(self._channels, poses, twists):
+            channel.send(stamp, own_pose, own_twist)
 
     def first_answer(self):
         """Stamp and wrench (6,) of the newest answer there is, without waiting, or None. With it the counting begins."""
@@ -146,8 +144,9 @@ class MooringLink:
             left = end - time.monotonic()
             if left <= 0.0:
                 self.counts.lost += 1
-                self._sent.pop(stamp, None)
-                self._given_up.add(stamp)
+                sample = self._sent.pop(stamp, None)
+                if sample is not None:
+                    self._given_up[stamp] = sample.wrenches.count(None)
                 return None
             self._executor.spin_once(timeout_sec=min(left, _POLL))
         self.counts.answered += 1
@@ -156,43 +155,46 @@ class MooringLink:
     @property
     def topics(self):
         """The topics of both directions as they are after remapping, for messages."""
-        return f"{self._publisher.topic_name} and {self._subscription.topic_name}"
+        return ", ".join(channel.topics for channel in self._channels)
 
     @property
     def heard(self):
         """Whether anybody listens to the samples."""
-        return self._publisher.get_subscription_count() > 0
+        return all(channel.heard for channel in self._channels)
 
     def close(self):
         """Let go of the executor; the node stays the caller's."""
         self._executor.shutdown()
 
-    def _take(self, message):
-        stamp = message.header.stamp.sec * 1_000_000_000 + message.header.stamp.nanosec
-        sent = self._sent.pop(stamp, None)
-        if sent is None:
-            if stamp in self._before:
-                self._before.remove(stamp)
-            elif stamp in self._given_up:
-                self._given_up.remove(stamp)
-                self.counts.late += 1
-            else:
-                self.counts.doubled += 1
+    def _take(self, channel, message):
+        stamp, which = stamp_of(message), self._channels.index(channel)
+        sample = self._sent.get(stamp)
+        if sample is None or sample.wrenches[which] is not None:
+            self._count_again(stamp)
             return
-        began, quaternion = sent
-        force, torque, frame = message.wrench.force, message.wrench.torque, message.header.frame_id
-        parts = (force.x, force.y, force.z), (torque.x, torque.y, torque.z)
-        if frame == self._platform:
-            parts = tuple(rotation.rotate(quaternion, part) for part in parts)
-        elif frame != self._world:
-            self._problem = f"the wrench is in frame '{frame}', expected '{self._world}' or '{self._platform}'"
+        try:
+            sample.wrenches[which] = channel.wrench(message, sample.poses[which])
+        except ValueError as error:
+            self._problem = str(error)
             return
-        self._answers[stamp] = np.array(parts).ravel(), time.perf_counter() - began
+        if all(wrench is not None for wrench in sample.wrenches):
+            del self._sent[stamp]
+            wrench = np.array(sample.wrenches) if self._several else sample.wrenches[0]
+            self._answers[stamp] = wrench, time.perf_counter() - sample.sent
+
+    def _count_again(self, stamp):
+        if stamp in self._before:
+            return
+        if self._given_up.get(stamp, 0) > 0:
+            self._given_up[stamp] -= 1
+            self.counts.late += self._given_up[stamp] == 0
+        else:
+            self.counts.doubled += 1
 
     def _begin(self):
         """What was sent until now is neither lost nor late, whenever its answers come."""
         self.counts = Counts()
-        self._before.update(self._sent)
+        self._before = set(self._sent) | set(self._answers)
         self._sent.clear()
         self._answers.clear()
         self._given_up.clear()
@@ -235,11 +237,3 @@ class _NodeState:
 
     def close(self):
         self._node.destroy_client(self._client)
-
-
-def checked(values, size, name):
-    """A tuple of so many finite floats."""
-    numbers = tuple(map(float, values))
-    if len(numbers) != size or not math.isfinite(sum(numbers)):
-        raise ValueError(f"{name} is {numbers}, expected {size} finite numbers")
-    return numbers

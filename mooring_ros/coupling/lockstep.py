@@ -18,7 +18,8 @@ from rclpy.signals import SignalHandlerOptions
 from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Float64MultiArray
 
-from mooring_ros.coupling.link import MOORING, ODOMETRY_TOPIC, PLATFORM, WORLD, LinkError, MooringLink, checked
+from mooring_ros.coupling.channel import ODOMETRY_TOPIC, rows
+from mooring_ros.coupling.link import MOORING, PLATFORM, WORLD, LinkError, MooringLink
 from mooring_ros.coupling.schemes import SCHEMES
 
 _MOST_LOST = 3  # answers missing in a row
@@ -31,27 +32,30 @@ class Coupling:
     sample; zero means "not set" in ROS. timeout: s of wall time, for the first answer; patience: s, for each one after. clock: publish /clock with
     every sample, for a node with `use_sim_time`. node: a rclpy node to use; else one of this name is made, in a context of its own.
     stop, odometry, mooring, world, platform: see MooringLink. body: which platform this is, where the mooring node has several (docs/platforms.md): each
-    may be simulated by a process of its own, all with the same step and start. The scheme `stiffness` is for one platform.
+    may be simulated by a process of its own, all with the same step and start. The scheme `stiffness` needs all platforms.
+    platforms: names of several that are simulated here; poses are then (platforms, 7), twists and wrenches (platforms, 6).
 
     time: s, of the last sample sent. wrench (6,): the last answer; round_trip: s, it took. counts: see link.Counts.
     stiffness (6, 6): −∂wrench/∂pose as last heard, or None.
     """
 
     def __init__(self, step, scheme="extrapolated", start=1.0, timeout=60.0, patience=5.0, clock=False, node=None, name="simulator",
-                 stop=lambda: False, odometry=None, mooring=MOORING, world=WORLD, platform=None, body=None):  # fmt: skip
+                 stop=lambda: False, odometry=None, mooring=MOORING, world=WORLD, platform=None, body=None, platforms=()):  # fmt: skip
         if not 0.0 < step < np.inf:
             raise ValueError(f"step is {step!r}, expected a positive number of seconds")
         if scheme not in SCHEMES:
             raise ValueError(f"scheme is {scheme!r}, expected one of {', '.join(SCHEMES)}")
         if body and SCHEMES[scheme].needs_stiffness:
             raise ValueError(f"scheme is {scheme!r}, which is for one platform, expected another one for {body}")
+        if body and platforms:
+            raise ValueError(f"body is {body!r} and platforms is {list(platforms)!r}, expected one of the two")
         self.step, self.timeout, self.patience = float(step), timeout, patience
         self.stiffness = self.wrench = self.round_trip = None
         self._make_scheme, self._scheme = SCHEMES[scheme], None
         self._start = self._begun = round(1e9 * start)
         self._number = -1
         self._coupled, self._missing, self._waiting_since, self._answered = False, 0, None, 0.0
-        self._context = None
+        self._context, self._several = None, len(platforms)
         if node is None:
             self._context = rclpy.Context()
             rclpy.init(context=self._context, signal_handler_options=SignalHandlerOptions.NO)
@@ -62,7 +66,7 @@ class Coupling:
         self._clock = node.create_publisher(Clock, "/clock", QoSProfile(depth=10)) if clock else None
         below = f"platforms/{body}/" if body else ""
         odometry = odometry or (f"{below}odom" if body else ODOMETRY_TOPIC)
-        self._link = MooringLink(node, stop, odometry, mooring, world, platform or body or PLATFORM, f"{below}wrench")
+        self._link = MooringLink(node, stop, odometry, mooring, world, platform or body or PLATFORM, f"{below}wrench", platforms)
 
     @property
     def counts(self):
@@ -111,7 +115,7 @@ class Coupling:
                 return self.wrench.copy()
             if time.monotonic() - self._waiting_since > self.timeout:
                 raise LinkError(f"nobody answers on {self.topics}, waited {self.timeout:g} s")
-            return np.array(free, float)
+            return np.broadcast_to(np.array(free, float), np.shape(twist)).copy()
         self._take(pose, twist)
         return self.ahead(self.time + 0.5 * self.step)
 
@@ -146,7 +150,7 @@ class Coupling:
     def _greet(self, pose, timeout):
         _, wrench = self._link.greet(self._stamps(), pose, timeout)
         self._couple()
-        self._note(pose, np.zeros(6), wrench)
+        self._note(pose, np.zeros_like(wrench), wrench)
         return self.wrench.copy()
 
     def _stamps(self):
@@ -156,7 +160,7 @@ class Coupling:
             yield self.stamp
 
     def _next(self, pose, twist, at):
-        pose, twist = checked(pose, 7, "pose"), checked(twist, 6, "twist")
+        rows(pose, 7, self._several, "pose"), rows(twist, 6, self._several, "twist")
         if at is None:
             self._number += 1
         elif at > self.time or self._number < 0:
@@ -197,8 +201,9 @@ class Coupling:
         self._scheme.take(self.time, pose, twist, wrench, self.stiffness)
 
     def _take_stiffness(self, message):
-        if len(message.data) == 36:
-            self.stiffness = np.array(message.data).reshape(6, 6)
+        size = 6 * max(self._several, 1)
+        if len(message.data) == size * size:
+            self.stiffness = np.array(message.data).reshape(size, size)
 
     def _wait_for_stiffness(self):
         end = time.monotonic() + self.patience

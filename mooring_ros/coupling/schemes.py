@@ -19,7 +19,10 @@ class Held:
         self._wrench = None
 
     def take(self, time, pose, twist, wrench, stiffness=None):
-        """Note an answer: time (s), pose (7,) and twist (6,) that were sent, wrench (6,); all in world axes. stiffness (6, 6), or None."""
+        """Note an answer: time (s), pose (7,) and twist (6,) that were sent, wrench (6,); all in world axes. stiffness (6, 6), or None.
+
+        Of several platforms (platforms, 7), (platforms, 6) and (6 platforms, 6 platforms).
+        """
         self._wrench = np.array(wrench, float)
 
     def ahead(self, seconds):
@@ -32,12 +35,12 @@ class Extrapolated(Held):
 
     def __init__(self):
         super().__init__()
-        self._time, self._rate = None, np.zeros(6)
+        self._time, self._rate = None, 0.0
 
     def take(self, time, pose, twist, wrench, stiffness=None):
         before, since = self._wrench, self._time
         super().take(time, pose, twist, wrench)
-        self._rate = np.zeros(6) if since is None else (self._wrench - before) / (time - since)
+        self._rate = 0.0 if since is None else (self._wrench - before) / (time - since)
         self._time = time
 
     def ahead(self, seconds):
@@ -55,21 +58,26 @@ class StiffnessPredicted(Held):
     def __init__(self):
         super().__init__()
         self._last = None
-        self._rate = np.zeros(6)
+        self._rate = 0.0
 
     def take(self, time, pose, twist, wrench, stiffness=None):
         super().take(time, pose, twist, wrench)
         pose, twist, stiffness = np.array(pose, float), np.array(twist, float), np.array(stiffness, float)
-        rest = np.zeros(6)
+        rest = np.zeros(twist.size)
         if self._last is not None:
             then, place, before = self._last
-            moved = np.concatenate([pose[:3] - place[:3], rotation.turn_between(place[3:], pose[3:])])
-            rest = (self._wrench - before + stiffness @ moved) / (time - then)
+            rest = ((self._wrench - before).ravel() + stiffness @ _move(place, pose)) / (time - then)
         self._last = time, pose, self._wrench
-        self._rate = rest - stiffness @ twist
+        self._rate = (rest - stiffness @ twist.ravel()).reshape(twist.shape)
 
     def ahead(self, seconds):
         return self._wrench + seconds * self._rate
+
+
+def _move(before, after):
+    """(6 platforms,): displacements and rotation vectors between poses."""
+    pairs = zip(before.reshape(-1, 7), after.reshape(-1, 7))
+    return np.concatenate([[*(new[:3] - old[:3]), *rotation.turn_between(old[3:], new[3:])] for old, new in pairs])
 
 
 SCHEMES = {"held": Held, "extrapolated": Extrapolated, "stiffness": StiffnessPredicted}

@@ -81,7 +81,7 @@ def test_without_a_stiffness_the_scheme_that_needs_one_says_so(spring):
         mooring.begin(HOME)
 
 
-@pytest.mark.parametrize("pose, words", [([np.nan, *HOME[1:]], "7 finite numbers"), (HOME[:6], "7 finite numbers")])
+@pytest.mark.parametrize("pose, words", [([np.nan, *HOME[1:]], "finite numbers of shape \\(7,\\)"), (HOME[:6], "finite numbers of shape \\(7,\\)")])
 def test_what_is_no_motion_is_not_sent(spring, pose, words):
     spring()
     with Coupling(step=0.1) as mooring:
@@ -92,7 +92,7 @@ def test_what_is_no_motion_is_not_sent(spring, pose, words):
         assert mooring.exchange(HOME, REST)[2] == PULL and mooring.time == pytest.approx(begin + 0.1)
 
 
-@pytest.mark.parametrize("arguments, words", [({"step": 0.0}, "step is 0.0"), ({"step": 0.1, "scheme": "newton"}, "held")])
+@pytest.mark.parametrize("arguments, words", [({"step": 0.0}, "step is 0.0"), ({"step": 0.1, "scheme": "newton"}, "held"), ({"step": 0.1, "body": "a", "platforms": ["a", "b"]}, "one of the two")])
 def test_wrong_arguments_name_what_was_expected(arguments, words):
     with pytest.raises(ValueError, match=words):
         Coupling(**arguments)
