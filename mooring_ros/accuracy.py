@@ -50,13 +50,13 @@ class Accuracy:
 
 
 def estimate(scene, settings, times, poses, twists, lengths=None, released=(), pause=lambda cpu: None, most_cpu=math.inf):
-    """Accuracy of `Mooring(scene, **settings)` over a window of motion: times (k,) s, poses (k, 7), twists (k, 6).
+    """Accuracy of `Mooring(scene, **settings)` over a window of motion: times (k,) s, poses (k, 7), twists (k, 6), or (k, platforms, 7) and so on.
 
     lengths: (lines,) m unstretched, None for the scene's; released: names of lines let go. pause(cpu): called now and then with the s of CPU time
     spent since the last call; most_cpu: s that it may take, about: of a window that would take longer the last part is taken, a tenth at least. A window that cannot be solved gives an Accuracy that says why.
     """
     motion = times, poses, twists
-    times, poses, twists = (np.array(rows, dtype=float) for rows in motion)
+    times, poses, twists = (np.array(rows, dtype=float, order="C") for rows in motion)
     first = int(np.searchsorted(times, times[0] + LEAD * (times[-1] - times[0]))) if times.size else 0
     spent = _Spent(pause)
 
@@ -66,7 +66,8 @@ def estimate(scene, settings, times, poses, twists, lengths=None, released=(), p
 
     if times.size < LEAST_SAMPLES or not times.size - first > LEAST_SAMPLES // 3:
         return without(f"{times.size} samples, expected {LEAST_SAMPLES} or more")
-    swell(times, poses, twists, times[first] - times[0])
+    for own in range(len(settings.get("platforms") or (None,))):
+        swell(times, poses.reshape(times.size, -1, 7)[:, own], twists.reshape(times.size, -1, 6)[:, own], times[first] - times[0])
 
     def tension(**changed):
         mooring = Mooring(scene, **{**settings, **changed})
@@ -95,6 +96,13 @@ def estimate(scene, settings, times, poses, twists, lengths=None, released=(), p
     errors = errors_between(mine, true)
     mean, dynamic, peak = errors.parts().tolist()
     return Accuracy(mean, dynamic, peak, own.line_names[errors.line], float(times[first]), float(times[-1]), compared, orders, spent.total)
+
+
+def motion_in(rows, platforms):
+    """times (k,), poses and twists of rows (k, 1 + 13 for each platform): time, and pose and twist of each in turn. platforms: names, or None for one."""
+    each = rows[:, 1:].reshape(len(rows), -1, 13)
+    poses, twists = each[..., :7], each[..., 7:]
+    return (rows[:, 0], poses, twists) if platforms else (rows[:, 0], poses[:, 0], twists[:, 0])
 
 
 def _mesh(settings, factor):

@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from .accuracy import estimate
+from .accuracy import estimate, motion_in
 
 _LENGTH = struct.Struct("<Q")
 # Stands back for everything else before anything is imported: that alone takes seconds.
@@ -45,7 +45,7 @@ class Task:
 
 @dataclass(frozen=True)
 class Window:
-    """motion (k, 14): time (s), pose, twist; lengths (lines,) m unstretched; released: names of lines."""
+    """motion (k, 14 or more): see accuracy.motion_in; lengths (lines,) m unstretched; released: names of lines."""
 
     motion: np.ndarray = field(repr=False)
     lengths: np.ndarray
@@ -99,7 +99,7 @@ def main():
     warm, throttle = False, None
     while True:
         window = messages.get()
-        times, poses, twists = window.motion[:, 0], window.motion[:, 1:8], window.motion[:, 8:]
+        times, poses, twists = motion_in(window.motion, task.settings.get("platforms"))
         motion = times, poses, twists, window.lengths, window.released
         try:
             if not warm:

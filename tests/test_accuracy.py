@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from scenes_in_code import HERE, SCENES, STILL, anchored, line_type
+from scenes_in_code import HERE, SCENES, STILL, anchored, line_type, surge_heave
 
 from mooring_ros import Mooring
-from mooring_ros.accuracy import LEAD, estimate
+from mooring_ros.accuracy import LEAD, estimate, motion_in
 from mooring_ros.offline.trade_errors import errors_between
 from mooring_ros.offline.trade_window import swell
 
@@ -92,3 +92,17 @@ def test_of_a_window_that_takes_too_long_the_last_part_is_taken():
     poses, twists = motion()
     found = estimate(SCENES / "oc4.txt", {"refine": 4.0}, TIMES, poses, twists, most_cpu=1e-3)
     assert found.begin == pytest.approx(128.0, abs=0.2) and found.end == 130.0 and found.mean > 0.0  # a tenth of 30 s, its first third run-in
+
+
+def test_a_window_of_two_platforms_is_estimated_as_that_of_the_one_that_they_are():
+    """Both floaters of the pair in surge alike: 1e-6 of the estimate on one platform."""
+    times = np.arange(0, 121) * 0.1
+    poses, twists = surge_heave(times)
+    rows = np.column_stack([times, *(np.hstack([poses + [x, 0, 0, 0, 0, 0, 0], twists]) for x in (-500.0, 500.0))])
+    rows[:, 1 + 3 : 1 + 7] = 0.0, 0.0, 1.0, 0.0  # body1 is turned by 180 degrees
+    names = ["body1", "body2"]
+    window = motion_in(rows, names)
+    assert window[1].shape == (121, 2, 7) and window[2].shape == (121, 2, 6)
+    two = estimate(SCENES / "oc4_pair.txt", {"platforms": names}, *window)
+    one = estimate(SCENES / "oc4_pair.txt", {"platforms": None}, *motion_in(np.column_stack([times, poses, twists]), None))
+    assert (two.mean, two.dynamic, two.peak) == pytest.approx((one.mean, one.dynamic, one.peak), rel=1e-6) and two.why == one.why == ""

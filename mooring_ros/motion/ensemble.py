@@ -102,6 +102,10 @@ class Ensemble:
         return sum(gate.received for gate in self.gates)
 
     @property
+    def handled(self):
+        return self.received - sum(len(queue) for queue in self._waiting)
+
+    @property
     def accepted(self):
         return sum(gate.accepted for gate in self.gates) - sum(self._given_up.values())
 
@@ -223,4 +227,6 @@ class Checks:
 
 def _together(stamp, motions):
     frame_times = [motion.frame_time for motion in motions]
-    return MotionOfAll(stamp, *zip(*(motion[1:4] for motion in motions)), None if None in frame_times else max(frame_times), any(motion.bridged for motion in motions))
+    poses, twists, accelerations = zip(*((motion.pose, motion.twist, motion.acceleration) for motion in motions))
+    bridged = any(motion.bridged for motion in motions)
+    return MotionOfAll(stamp, poses, twists, accelerations, None if None in frame_times else max(frame_times), bridged)

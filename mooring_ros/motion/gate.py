@@ -176,6 +176,11 @@ class Gate:
         self.child_frame = self.child_frame or sample.child_frame
         return self._accept(motion, estimate)
 
+    @property
+    def handled(self):
+        """How many of those received have been answered or refused, and do not wait for others (ensemble.py)."""
+        return self.received
+
     def reject(self, reason, words):
         """Count what never became a sample."""
         self.received += 1

@@ -17,7 +17,7 @@ from mooring_ros.recording import schedule
 
 LOOK = 0.1              # s, how often the thread looks whether it is to end
 ROWS = 4000             # samples kept of a window, at most; closer ones are thinned out
-_COLUMNS = slice(1, 15)  # of a schedule record: time, pose, twist
+_COLUMNS = slice(1, None)  # of a schedule record: time, and pose and twist of each platform
 
 
 class Companion:
@@ -30,7 +30,7 @@ class Companion:
 
     def __init__(self, mooring, settings, share, window):
         self._mooring, self._settings, self._window = mooring, settings, window
-        self._rows = np.empty((2 * ROWS, 14))
+        self._rows = np.empty((2 * ROWS, schedule.size(mooring.platforms) - 1))
         self._count, self._released, self._done_until = 0, [], None
         self.latest = self.at = None
         self.ended = ""
@@ -150,7 +150,7 @@ def report(companion, pace, mooring, now):
     if linear is not None:
         values["error of linearising now (%)"] = f"{100.0 * linear:.3g}"
     if companion is None:
-        return "not estimated: not built for several platforms" if mooring.platforms else "estimate switched off", values
+        return "estimate switched off", values
     found = companion.latest
     if found is None:
         return companion.ended or companion.waits_for, values

@@ -91,7 +91,7 @@ class MooringNode(LifecycleNode):
         self._session = Session(self._mooring, gate, Output(totals=len(self._mooring.platforms or (None,))), check, self._watch_now)
         self._refused = self._restarts = 0
         self._pace = Pace()
-        if values["accuracy.enabled"] and not self._mooring.platforms:
+        if values["accuracy.enabled"]:
             self._companion = Companion(self._mooring, self._settings, values["accuracy.share"], values["accuracy.window"])
         timer = values["timing.mode"] == "timer"
         # Simulated deadlines come from a timer on that clock, which may be early; steady ones are the loop's (loop.py).

@@ -3,10 +3,12 @@ from mooring_ros.motion.ensemble import OfPlatform
 from mooring_ros.node.inputs import Inputs
 from mooring_ros.node.resets import Resets
 
+
 def refuse(values):
     """Raise ValueError for parameters (name -> value) that go with one platform only."""
     if values["platforms"] and values["platform_frame"]:
-        raise ValueError(f"platform_frame is {values['platform_frame']!r}, expected none with several platforms: the first sample of each names its own")
+        raise ValueError(
+            f"platform_frame is {values['platform_frame']!r}, expected none with several platforms: the first sample of each names its own")
 
 
 def name_list(names):

@@ -48,7 +48,7 @@ class Session:
         self._origin = None
         self._stepped = None        # moment (ns) to which the core has been stepped
         self._unchecked = self._unmeasured = None
-        self._received = 0          # messages, the last good one included
+        self._handled = 0           # messages, the last good one included
         self._suspected = False     # something was missing at the last look at the clock
 
     @property
@@ -218,7 +218,7 @@ class Session:
             self._anew = True
         self.steps_in.add(motion.time)
         self.watch.hear(self.clock())
-        self._received = self.gate.received
+        self._handled = self.gate.handled
         if self.check is not None and not self.check.finished and not motion.bridged:
             self._unchecked = motion, sample
         if self.state == SAFE:
@@ -249,7 +249,7 @@ class Session:
         if suspected and heart:
             self._withdraw(FAULT, heart)
         elif suspected and lost:
-            refused = self.gate.received - self._received
+            refused = self.gate.handled - self._handled
             self._withdraw(LOST, lost + self.gate.missing + (f"; {refused} refused, the last: {self.gate.cause}" if refused else ""))
 
     def _withdraw(self, event, cause):

@@ -75,7 +75,8 @@ def run(args):
 
     watched = Watched() if args.accuracy else None
     done = replay(args, mooring, motion, settings, watched)
-    accuracy = watched.estimate(mooring.scene, {name: settings[name] for name in MODEL if settings[name]}) if watched else None
+    chosen = {name: settings[name] for name in MODEL if settings[name]} | {"platforms": mooring.platforms}
+    accuracy = watched.estimate(mooring.scene, chosen) if watched else None
     found = {
         "output": args.output,
         "csv": args.csv,
@@ -104,9 +105,8 @@ def _motion(args):
             f"{args.motion}: a recording of the node is replayed step by step, expected no --rate, or --topic NAME with it to take an input's motion alone"
         )
     if motion.platforms and motion.schedule is None:
-        raise UsageError(f"{args.motion}: recorded with platforms {', '.join(motion.platforms)}: the motion of one does not say where the others are, expected no --topic")
-    if motion.platforms and args.accuracy:
-        raise UsageError(f"{args.motion}: recorded with platforms {', '.join(motion.platforms)}, for which no accuracy is estimated, expected no --accuracy")
+        names = ", ".join(motion.platforms)
+        raise UsageError(f"{args.motion}: recorded with platforms {names}: the motion of one does not say where the others are, expected no --topic")
     return motion
 
 

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from mooring_ros.accuracy import LEAD, estimate
+from mooring_ros.accuracy import LEAD, estimate, motion_in
 from mooring_ros.recording import schedule
 
 WINDOW = 60.0  # s of the core's time that are solved again; the highest tension is in the middle of what is compared
@@ -22,7 +22,7 @@ class Watched:
         if done.kind == schedule.SETTLE:
             self._motion, self._highest = [], -math.inf
         if done.kind in schedule.MOVES:
-            self._motion.append(done.record[1:15])
+            self._motion.append(done.record[1:])
             highest = float(mooring.fairlead_tension.max())
             if highest > self._highest:
                 self._highest, self._at, self._lengths = highest, mooring.time, mooring.unstretched_length
@@ -36,4 +36,4 @@ class Watched:
         times = motion[:, 0]
         begin = np.clip(self._at - 0.5 * (1.0 + LEAD) * WINDOW, times[0], max(times[0], times[-1] - WINDOW))
         rows = (times >= begin) & (times <= begin + WINDOW)
-        return estimate(scene, settings, times[rows], motion[rows, 1:8], motion[rows, 8:], self._lengths, self._lost)
+        return estimate(scene, settings, *motion_in(motion[rows], settings.get("platforms")), self._lengths, self._lost)

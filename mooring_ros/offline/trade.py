@@ -128,7 +128,8 @@ def _motion(args):
     with reading(args.motion):
         motion = load_motion(args.motion, args.topic)
         if motion.platforms:
-            raise ValueError(f"{args.motion}: recorded with platforms {', '.join(motion.platforms)}, expected the motion of one platform: the trade is not built for several")
+            names = ", ".join(motion.platforms)
+            raise ValueError(f"{args.motion}: recorded with platforms {names}, expected the motion of one platform: the trade is not built for several")
         return one_stretch(motion)
 
 

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PoseStamped, WrenchStamped
 from nav_msgs.msg import Odometry
 from node_peer import START, UPRIGHT, NodeProcess, Peer, free_domain, numbers, stamp_of
+from scipy.spatial.transform import Rotation
 from std_msgs.msg import Float64MultiArray
 
 from mooring_ros.mooring import Mooring
@@ -19,6 +19,7 @@ from mooring_ros.motion.ensemble import Ensemble, OfPlatform
 from mooring_ros.node.output import Output
 from mooring_ros.node.session import Session
 from mooring_ros.node.states import HOLD, IDLE, RUN
+from mooring_ros.node.stiffness import stiffness_out
 from mooring_ros.recording import schedule
 
 SCENE = str(Path(__file__).parents[2] / "config" / "scenes" / "oc4_pair.txt")
@@ -83,6 +84,19 @@ def test_before_all_have_come_it_waits_and_says_for_whom(session):
     assert session.state == IDLE and session.gate.missing == "; waits for body2 at 0.000 s"
 
 
+def test_a_stiffness_that_goes_out_has_each_block_in_the_axes_of_its_two_platforms():
+    """Of a scale and body axes: blocks on the diagonal as of one platform, the others turned on either side by their own."""
+    stiffness, adapter = np.arange(144.0).reshape(12, 12), Adapter(wrench_frame="body", scale=50.0)
+    poses = np.array([[*place, 0.0, 0.0, *q] for place, q in (((1.0,), (0.0, 0.0, 0.6, 0.8)), ((2.0,), (0.6, 0.0, 0.0, 0.8)))])
+    out = stiffness_out(stiffness, adapter, poses)
+    for i in range(2):
+        own = slice(6 * i, 6 * i + 6)
+        np.testing.assert_allclose(out[own, own], stiffness_out(stiffness[own, own], adapter, poses[i]), rtol=1e-12)
+    turn = [np.kron(np.eye(2), Rotation.from_quat(pose[3:]).as_matrix()) for pose in poses]
+    unscaled = stiffness_out(stiffness, Adapter(wrench_frame="body"), poses)
+    np.testing.assert_allclose(unscaled[:6, 6:], turn[0].T @ stiffness[:6, 6:] @ turn[1], rtol=1e-9, atol=1e-9)
+
+
 def test_the_force_limit_holds_for_each_platform():
     output = Output(force=10.0, totals=2)
     wrenches = np.zeros((3, 6))
@@ -109,6 +123,7 @@ class TwoPlatforms(Peer):
         self.to = {name: self.node.create_publisher(Odometry, f"platforms/{name}/odom", 50) for name in NAMES}
         self.found = {name: [] for name in NAMES}
         self.stiffness = []
+        self.listen(Float64MultiArray, "mooring/stiffness", self.stiffness.append)
         for name in NAMES:
             self.listen(WrenchStamped, f"mooring/platforms/{name}/wrench", self.found[name].append)
 
@@ -163,7 +178,11 @@ def test_a_node_answers_each_platform_and_its_recording_replays_bit_for_bit(run)
         flip = np.array([-1.0, -1.0, 1.0, -1.0, -1.0, 1.0])   # body1 is turned by 180 degrees
         np.testing.assert_allclose(numbers(answers[0]) * flip, mooring.wrench[0], rtol=1e-12, atol=1e-6)
         np.testing.assert_allclose(numbers(answers[1]), mooring.wrench[1], rtol=1e-12, atol=1e-6)
-    peer.spin(0.5)
+    peer.wait(lambda: peer.stiffness, 10.0, "the stiffness")
+    at_rest = Mooring(SCENE, platforms=NAMES)
+    at_rest.settle(at_rest.pose_in_file)
+    expected = stiffness_out(at_rest.stiffness(), Adapter(wrench_frame="body"), at_rest.pose)
+    np.testing.assert_allclose(np.reshape(peer.stiffness[0].data, (12, 12)), expected, rtol=1e-9, atol=1e-9 * np.abs(expected).max())
     assert not peer.wrenches, "there is no ~/wrench of several platforms"
     peer.send_one("body1", 1.0)
     peer.diagnostic("input", lambda level, values, message: "waits for body2 at 1.000 s" in values.get("waits for", ""))
@@ -172,11 +191,12 @@ def test_a_node_answers_each_platform_and_its_recording_replays_bit_for_bit(run)
     reply = peer.call("mooring/settle")
     assert reply.success and reply.message == "settled at (-500.000, 0.000, 0.000) and (504.000, 0.000, 0.000) m"
     assert process.end() == 0
-    out = subprocess.run([sys.executable, "-m", "mooring_ros.offline", "replay", str(folder / "run.mcap"), str(folder / "run.mcap"), "-o", str(folder / "again.mcap"),
+    out = subprocess.run([sys.executable, "-m", "mooring_ros.offline", "replay", str(folder / "run.mcap"), str(folder / "run.mcap"), "-o", str(folder / "again.mcap"), "--accuracy",
                           "--csv", str(folder / "again.csv"), "--json"], capture_output=True, text=True, timeout=300)
     assert out.returncode == 0, out.stderr
     found = json.loads(out.stdout)
     assert found["identical"]["total"] == 21 and found["identical"]["same"] == 21 and found["answers"] == 22
+    assert "samples, expected 30 or more" in found["accuracy"]["why"]
     header, *rows = (folder / "again.csv").read_text().splitlines()
     assert header.endswith("body1.fx,body1.fy,body1.fz,body1.mx,body1.my,body1.mz,body2.fx,body2.fy,body2.fz,body2.mx,body2.my,body2.mz") and len(rows) == 22
     again = subprocess.run([sys.executable, "-m", "mooring_ros.offline", "replay", SCENE, str(folder / "again.mcap"), "-o", str(folder / "third.mcap"), "--json"],
