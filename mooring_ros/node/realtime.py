@@ -21,13 +21,14 @@ def ask(priority, lock_memory):
     """Ask for SCHED_FIFO at this priority (0: not) and for locked memory; returns what was granted.
 
     The calling thread gets the priority, and all others of the process, those of the middleware and the recorder, get one less: a thread that
-    holds the interpreter and waits behind somebody's load would hold up the one that must be on time. What is started later is not real-time.
+    holds the interpreter, or a lock of the middleware, and waits behind somebody's load would hold up the one that must be on time. Threads that are
+    started later inherit it from theirs: the middleware starts some when it meets another process. So would processes: start those before.
     """
     problems = []
     scheduling, memory = "normal", "not locked"
     if priority:
         try:
-            _schedule(os.SCHED_FIFO | os.SCHED_RESET_ON_FORK, priority, max(priority - 1, 1))
+            _schedule(os.SCHED_FIFO, priority, max(priority - 1, 1))
             scheduling = f"SCHED_FIFO {priority}"
         except OSError as error:
             give_back()
