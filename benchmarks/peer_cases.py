@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 
 from mooring_ros.scene import load_scene, parse_scene
 from mooring_ros.scene.description import COUPLED, RodEnd
+from mooring_ros.scene.grouping import times_segments
 
 from .moordyn_deck import sea_components
 from .moordyn_history import SCENES
@@ -35,17 +36,13 @@ class Case:
     def scene(self, refinement=1):
         """The scene in still water, with ``refinement`` times the case's segments in every line."""
         scene = self.still()
-        return replace(scene, lines=tuple(replace(n, segments=_times(self.segments or n.segments, refinement)) for n in scene.lines))
+        return replace(scene, lines=tuple(replace(n, segments=times_segments(refinement, self.segments or n.segments)) for n in scene.lines))
 
     def platform(self):
         """The motion."""
         if self.motion is not None:
             return self.motion
         return SeaMotion(*sea_components(load_scene(SCENES / self.file).environment), ramp=14.5, measured=43.5)
-
-
-def _times(segments, refinement):
-    return max(1, round(segments * refinement))
 
 
 def fairleads(scene):

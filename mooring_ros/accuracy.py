@@ -15,6 +15,7 @@ import numpy as np
 from .mooring import Mooring, MooringError
 from .offline.trade_errors import errors_between
 from .offline.trade_window import swell
+from .scene.grouping import times_segments
 
 LEAD = 1.0 / 3.0  # of a window: the motion swells, nothing is compared
 CHUNK = 0.02  # s of CPU time between two pauses
@@ -108,7 +109,7 @@ def motion_in(rows, platforms):
 def _mesh(settings, factor):
     """Arguments for `factor` times the segments of `settings`."""
     if settings.get("segments"):
-        return {"segments": max(1, round(factor * settings["segments"]))}
+        return {"segments": times_segments(factor, settings["segments"])}
     return {"refine": factor * settings.get("refine", 1.0)}
 
 

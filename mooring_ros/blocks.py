@@ -15,6 +15,7 @@ from .errors import MooringError
 from .mixed import Group, MixedMooring
 from .mooring import Mooring
 from .scene.cutting import cut, joints
+from .scene.grouping import group_of_each, times_segments
 
 LARGE = 6000  # nodes from which a mooring is cut
 BLOCK = 1500  # nodes of a block, where joints allow: some 60 numbers of 8 bytes each fit a cache of 1 MB
@@ -31,25 +32,16 @@ def is_large(scene, segments=None, refine=1.0):
 
 
 def _counts(scene, segments, refine):
-    return [max(round(line.segments * refine), 1) if segments is None else int(segments) for line in scene.lines]
+    return [times_segments(refine, line.segments) if segments is None else int(segments) for line in scene.lines]
 
 
 def _blocks(scene, counts):
     """Names of the lines of each block: what a joint holds together stays together."""
-    leader = {line.name: line.name for line in scene.lines}
-
-    def first_of(name):
-        while leader[name] != name:
-            leader[name] = leader[leader[name]]
-            name = leader[name]
-        return name
-
-    for _, (first, *others) in joints(scene):
-        for name in others:
-            leader[first_of(name)] = first_of(first)
+    number = {line.name: k for k, line in enumerate(scene.lines)}
+    links = ((number[first], number[other]) for _, (first, *others) in joints(scene) for other in others)
     joined = {}
-    for line, count in zip(scene.lines, counts):
-        lines = joined.setdefault(first_of(line.name), [[], 0])
+    for line, count, group in zip(scene.lines, counts, group_of_each(len(scene.lines), links)):
+        lines = joined.setdefault(group, [[], 0])
         lines[0].append(line.name)
         lines[1] += count + 1
     blocks, room = [], 0

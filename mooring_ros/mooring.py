@@ -33,6 +33,7 @@ from .fidelity import EXPECTED, FIDELITIES, is_by_line
 from .history import History
 from .platforms import Platforms
 from .scene import COUPLED, Scene, load_scene
+from .scene.grouping import times_segments
 
 SOLVERS = ("auto", "explicit", "implicit")
 MOST_SEGMENTS = 100_000  # of a line
@@ -698,7 +699,7 @@ def _refined(scene, factor):
     """The scene with `factor` times the segments in each line, whole numbers from 1."""
     if factor == 1.0:
         return scene
-    counts = [max(1, round(factor * line.segments)) for line in scene.lines]
+    counts = [times_segments(factor, line.segments) for line in scene.lines]
     if max(counts) > MOST_SEGMENTS:
         raise ValueError(f"refine is {factor!r}, which makes {max(counts)} segments in a line; expected at most {MOST_SEGMENTS}")
     return replace(scene, lines=tuple(replace(line, segments=count) for line, count in zip(scene.lines, counts)))

@@ -7,9 +7,10 @@ from scenes_in_code import HERE, SCENES, STILL, anchored, line_type
 from mooring_ros import Mooring
 
 
-def test_a_line_wound_in_slowly_ends_at_the_statics_of_its_new_length():
+@pytest.mark.parametrize(("solver", "allowed"), [("explicit", 5e-4), ("implicit", 1e-3)])
+def test_a_line_wound_in_slowly_ends_at_the_statics_of_its_new_length(solver, allowed):
     kind = line_type(0.09, 113.0, 7.5e8, -1.0, drag=1.1, added=1.0)
-    mooring, target = (Mooring(anchored(kind, (-837.6, 0, -200), (-40.9, 0, -14), 835.35, 20, depth=200.0)) for _ in range(2))
+    mooring, target = (Mooring(anchored(kind, (-837.6, 0, -200), (-40.9, 0, -14), 835.35, 20, depth=200.0), solver=solver) for _ in range(2))
     mooring.settle(HERE)
     before = mooring.fairlead_tension[0]
     tension = np.empty(4000)
@@ -21,7 +22,7 @@ def test_a_line_wound_in_slowly_ends_at_the_statics_of_its_new_length():
     target.set_unstretched_length("line1", 832.35)
     target.settle(HERE)
     assert target.fairlead_tension[0] > 1.05 * before
-    assert tension[2000:].mean() == pytest.approx(target.fairlead_tension[0], rel=5e-4)  # it swings on, drag being small at small speeds
+    assert tension[2000:].mean() == pytest.approx(target.fairlead_tension[0], rel=allowed)  # it swings on, drag being small at small speeds
 
 
 def test_weight_goes_with_the_length():

@@ -126,10 +126,10 @@ def advance(model, state, scratch, plan, work, scheme, longest, time, poses, twi
     if progress[0] == 0:
         save(model, state, scratch, 0)
         save_accelerations(state, work)
-        for k in range(9):
+        for k in range(10):
             work.settings[k] = settings[k]
         average_acceleration(state, scratch, twists, duration, min(duration / SMOOTHING, 1.0))
-        work.settings[9] = 0.0  # whether the waves have been looked at further ahead
+        work.settings[10] = 0.0  # whether the waves have been looked at further ahead
         report[0], report[1], report[2], report[3] = 0.0, 0.0, 0.0, duration
     settings[0], settings[1], settings[8], settings[9] = 0.0, 0.0, 0.0, 0.0
     steps = int(np.ceil(duration / min(longest, model.sea.refresh) - 1e-9))
@@ -139,9 +139,9 @@ def advance(model, state, scratch, plan, work, scheme, longest, time, poses, twi
         j = progress[0]
         now = state.clock[0] + j * h
         if model.sea.frequency.size > 0 and outdated(state.window_times, now, now + h):
-            if work.settings[9] == 0.0:
+            if work.settings[10] == 0.0:
                 copy_window(state.window_times, state.window, scratch.saved_window_times, scratch.saved_window)
-                work.settings[9] = 1.0
+                work.settings[10] = 1.0
             refresh(model.sea, now, now + h, model.size, state.position, state.velocity, scratch.wave_work, state.window_times, state.window)
         look_at_surface(model, state, SURFACE_MARGIN + model.bulk + h * max(LIKELY_SPEED, ends))
         good = take_step(model, state, scratch, plan, work, scheme, h, j / steps, 1.0 / steps, fastest, report)
@@ -161,11 +161,11 @@ def advance(model, state, scratch, plan, work, scheme, longest, time, poses, twi
     if torn or not good:
         recall(model, state, scratch, 0)
         recall_acceleration(state, scratch)
-        for k in range(9):
+        for k in range(10):
             settings[k] = work.settings[k]
         if settings[2] == 0.0:
             all_wet(model, state)
-        if work.settings[9] != 0.0:
+        if work.settings[10] != 0.0:
             copy_window(scratch.saved_window_times, scratch.saved_window, state.window_times, state.window)
         evaluate_in_place(model, state, scratch, settings[0], settings[1], settings[2] != 0.0)
         recall_accelerations(state, work)
@@ -281,5 +281,5 @@ def _new_work(model, plan):
         turned=np.zeros((parts, 3)),
         saved=np.zeros((2, 3, n)),
         saved_parts=np.zeros((2, parts, 6)),
-        settings=np.zeros(10),
+        settings=np.zeros(11),
     )

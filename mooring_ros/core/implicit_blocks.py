@@ -274,19 +274,14 @@ def _crossed(v, block):
 
 
 @stage
+def _transposed(block):
+    return block[0], block[3], block[6], block[1], block[4], block[7], block[2], block[5], block[8]
+
+
+@stage
 def _uncrossed(block, v):
     """The block (9,) times -[v]: of a turn at the arm v."""
-    return (
-        block[2] * v[1] - block[1] * v[2],
-        block[0] * v[2] - block[2] * v[0],
-        block[1] * v[0] - block[0] * v[1],
-        block[5] * v[1] - block[4] * v[2],
-        block[3] * v[2] - block[5] * v[0],
-        block[4] * v[0] - block[3] * v[1],
-        block[8] * v[1] - block[7] * v[2],
-        block[6] * v[2] - block[8] * v[0],
-        block[7] * v[0] - block[6] * v[1],
-    )
+    return _transposed(_crossed(v, _transposed(block)))
 
 
 @routine

@@ -59,7 +59,7 @@ class Work(NamedTuple):
     turned: np.ndarray  # (B, 3): rotation vector since a step's start
     saved: np.ndarray  # (2, 3, n): accelerations of the interval's start
     saved_parts: np.ndarray  # (2, B, 6)
-    settings: np.ndarray  # (10,): State.settings of the interval's start, and whether the waves have been looked at further ahead
+    settings: np.ndarray  # (11,): State.settings of the interval's start, and whether the waves have been looked at further ahead
 
 
 class Scheme(NamedTuple):

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..scene.grouping import group_of_each
 from .friction import NO_FRICTION, STICK
 from .hinges import stiffness_rows
 from .layout import POINT_COUPLED, POINT_FIXED
@@ -120,21 +121,14 @@ def paces(scene, model, end_point):
 
     The least of the groups of lines that are joined; L is the length of the longest of a group, the time the sum over its lines.
     """
-    owner, group = {}, list(range(len(scene.lines)))
-
-    def root(line):
-        while group[line] != line:
-            line = group[line]
-        return line
-
+    owner, links = {}, []
     for k in range(len(scene.lines)):
         for p in end_point[2 * k : 2 * k + 2]:
             if p != LOOSE and model.point_kind[p] not in (POINT_FIXED, POINT_COUPLED):
                 holder = ("part", int(model.rigid.part[p])) if model.rigid.part[p] >= 0 else ("point", int(p))
-                group[root(k)] = root(owner.setdefault(holder, k))
+                links.append((k, owner.setdefault(holder, k)))
     longest, passing, gravity = {}, {}, scene.environment.gravity
-    for k, line in enumerate(scene.lines):
-        g = root(k)
+    for line, g in zip(scene.lines, group_of_each(len(scene.lines), links)):
         longest[g] = max(longest.get(g, 0.0), line.length)
         passing[g] = passing.get(g, 0.0) + line.length * math.sqrt(line.type.mass / line.type.stiffness)
     pace = PACE * math.sqrt(min(longest.values()) / gravity) if gravity > 0.0 else math.inf

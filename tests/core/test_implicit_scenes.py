@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
-from scenes_in_code import COUPLED, FIXED, FREE, HERE, SCENES, STILL, anchored, line_type, scene, surge_heave
+from scenes_in_code import COUPLED, FIXED, FREE, HERE, SCENES, anchored, line_type, scene, surge_heave
 
 from mooring_ros import Mooring
 from mooring_ros.scene.description import Failure
@@ -83,22 +83,6 @@ def test_a_line_let_go_falls_as_with_explicit_steps():
         mooring.run(np.arange(1, 21) * 0.25, np.tile(HERE, (20, 1)), np.zeros((20, 6)))
         places.append(mooring.node_positions("line1")[-1])
     assert places[0] == pytest.approx(places[1], abs=0.2)
-
-
-def test_a_line_wound_in_ends_at_the_statics_of_its_new_length():
-    kind = line_type(0.09, 113.0, 7.5e8, -1.0, drag=1.1, added=1.0)
-    made = anchored(kind, (-837.6, 0, -200), (-40.9, 0, -14), 835.35, 20, depth=200.0)
-    mooring, target = Mooring(made, solver="implicit"), Mooring(made)
-    mooring.settle(HERE)
-    tension = np.empty(3000)
-    for k in range(1, tension.size + 1):
-        if k <= 300:
-            mooring.set_unstretched_length("line1", 835.35 - 0.01 * k)
-        mooring.step(0.1 * k, HERE, STILL)
-        tension[k - 1] = mooring.fairlead_tension[0]
-    target.set_unstretched_length("line1", 832.35)
-    target.settle(HERE)
-    assert tension[2000:].mean() == pytest.approx(target.fairlead_tension[0], rel=1e-3)
 
 
 def test_the_rm3_cable_in_waves_keeps_its_deviations_in_steps_of_fifty_milliseconds():
