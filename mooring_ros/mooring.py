@@ -12,10 +12,7 @@ from .choice import choose_solver
 from .core import explicit, implicit
 from .core.bending_readings import curvature as curvature_of_nodes
 from .core.energy import energy
-from .core.failures import build_failures
 from .core.forces import evaluate_once
-from .core.friction import NO_FRICTION
-from .core.ground import NO_CONTACT
 from .core.guard import FASTEST
 from .core.layout import Layout
 from .core.linear import linearise
@@ -25,9 +22,9 @@ from .core.readings import new_readings, observe
 from .core.schemes import LEAPFROG, step_table
 from .core.stability import step_limit
 from .core.platform import rotate
-from .core.poses import between, moved
 from .core.statics import StaticSolver
 from .core.waves import waken
+from .equilibria import Equilibria, copied
 from .errors import MooringError
 from .fidelity import EXPECTED, FIDELITIES, is_by_line
 from .history import History
@@ -38,15 +35,6 @@ from .scene.grouping import times_segments
 SOLVERS = ("auto", "explicit", "implicit")
 MOST_SEGMENTS = 100_000  # of a line
 MOST_STRAIN = 1.0  # of a line in motion, or twice that of the settled one
-NOT_AS_LAID = "statics with friction from the lines as laid did not converge: they hold on to the bed where they lie without friction"
-SWINGS, PIECES = 40, 40  # how often lines may swing where the statics do not converge at once, and in how many pieces
-SWING_TIME, LONGER = 20.0, 1.2  # s, and by how much each swing is longer than the last one
-MOST_EFFORT = 2e8  # evaluations times nodes of all swings: ten seconds at worst, of small scenes
-PARTS = (1, 4, 16)  # of a platform's move from sample to sample, in which the statics follow it
-STEP_EFFORT = 2e7  # evaluations times nodes of the swings in one step
-TOPPLES = 6  # equilibria that topple, one after the other, and swings to find the next
-TOPPLES_STILL = "the equilibrium that the statics found topples when it is touched: give bodies and rods places nearer to where they come to rest"
-AT_REST = 1e-5  # of the longest line: moves of a whole swing
 
 
 @dataclass(frozen=True)
@@ -280,7 +268,7 @@ class Mooring:
 
     def snapshot(self):
         """A copy of everything that changes, for `restore`."""
-        return Snapshot(self._identity, _copy(self._state), tuple(array.copy() for array in self._readings), self._settled, self._linear, self._lengths)
+        return Snapshot(self._identity, copied(self._state), tuple(array.copy() for array in self._readings), self._settled, self._linear, self._lengths)
 
     def restore(self, saved):
         """Go back to a snapshot of this mooring or one like it, bit for bit. Raises ValueError for one of another mooring."""
@@ -296,7 +284,7 @@ class Mooring:
     def twin(self):
         """Another mooring like this one, in the same state. What does not change they share."""
         other = copy.copy(self)
-        other._state, other._scratch = _copy(self._state), new_scratch(self._model)
+        other._state, other._scratch = copied(self._state), new_scratch(self._model)
         other._readings = type(self._readings)(*(array.copy() for array in self._readings))
         other._statics = StaticSolver(self._wound, self._model)
         if self._implicit:
@@ -450,94 +438,21 @@ class Mooring:
 
     # -- inside -----------------------------------------------------------------------------------------------------------------------
 
+    @property
+    def _equilibria(self):
+        return Equilibria(self._model, self._statics, self._scratch, self._table, self.step_limit.dt, self._warn)
+
+    def _warn(self, words):
+        if words not in self.warnings:
+            self.warnings += (words,)
+
     def _next_static_state(self, pose):
-        """A State in equilibrium at `pose` and its StaticResult, from the present shape; where that finds no way, in parts of the move, then from cold.
+        """A State in equilibrium at `pose` and its StaticResult, from the present shape."""
+        return self._equilibria.near(self._state, pose)
 
-        The effort is bounded: by the iterations of StaticSolver.solve, once from the present shape, once from cold, 20 times its quick way, and
-        a share of a second of swinging.
-        """
-        state, remembers, tries = _copy(self._state), self._state.grip.size > 0, 0
-        way = between(state.pose, pose)
-        for parts in PARTS:
-            state = _copy(self._state)
-            for share in np.arange(1, parts + 1) / parts:
-                self._statics.place(state, moved(self._state.pose, share * way) if share < 1.0 else pose, first_guess=False)
-                result = self._statics.solve(state, self._scratch, quick=parts > 1)
-                tries += result.iterations
-                if result.residual > self._statics.acceptable:
-                    break
-                if remembers:
-                    self._statics.hold_on(state)
-            else:
-                return state, replace(result, iterations=tries, converged=True)
-        swing = SWING_TIME / self.step_limit.dt * self._model.size
-        state, result = self._static_state(pose, swings=min(int(STEP_EFFORT / swing), SWINGS))
-        return state, replace(result, iterations=tries + result.iterations)
-
-    def _static_state(self, pose, swings=SWINGS):
-        """A State in equilibrium at `pose`, and its StaticResult, from the catenaries; where Newton finds no way, lines swing and drag in the water first."""
-        state = _copy(self._state)
-        self._statics.place(state, pose)
-        remembers = state.grip.size > 0
-        if remembers:
-            state.grip[3] = NO_CONTACT
-        result = self._statics.solve(state, self._scratch)
-        best, best_state = result, _copy(state)
-        effort = 0
-        for swing in range(swings):
-            if best.residual <= self._statics.acceptable or effort > MOST_EFFORT:
-                break
-            took, at_rest = self._swing(state, SWING_TIME * LONGER**swing)
-            effort += took
-            result = self._statics.solve(state, self._scratch, quick=not at_rest)
-            if result.residual < best.residual:
-                best, best_state = result, _copy(state)
-            if at_rest:
-                break
-        if not best.converged and best.residual <= self._statics.acceptable:
-            best = replace(best, tolerance=self._statics.acceptable, converged=True)
-        if best.converged:
-            best, best_state = self._standing(best, best_state, swings)
-        if best.converged and remembers:
-            state = _copy(best_state)
-            laid = self._statics.pull_tight(state, self._scratch)
-            iterations = laid.iterations + best.iterations
-            if laid.residual <= self._statics.acceptable:
-                best, best_state = replace(laid, iterations=iterations, converged=True), state
-            else:
-                best = replace(best, iterations=iterations, as_laid=False)
-                if NOT_AS_LAID not in self.warnings:
-                    self.warnings += (NOT_AS_LAID,)
-        if best.converged:
-            if remembers:
-                self._statics.hold_on(best_state)
-            return best_state, best
-        raise MooringError(
-            f"the statics did not converge in {best.iterations} iterations: "
-            f"{best.residual:.3g} N out of balance, {best.tolerance:.3g} N asked for; "
-            "expected lines that can hold what hangs on them, and free points, rods and bodies nearer to where they come to rest"
-        )
-
-    def _standing(self, result, state, swings):
-        """An equilibrium that stands, from one that may topple: pushed, it swings until Newton's method finds another. Warns where none is found."""
-        found, trial = (result, state), state
-        for swing in range(min(TOPPLES, swings)):
-            step = self._statics.falls(trial, self._scratch)
-            if step is None:
-                return found[0], trial
-            trial = _copy(trial)
-            self._statics.tip(trial, step)
-            for _ in range(TOPPLES):
-                self._swing(trial, SWING_TIME * LONGER**swing)
-                next_result = self._statics.solve(trial, self._scratch)
-                if next_result.residual <= self._statics.acceptable:
-                    break
-            else:
-                break
-            found = replace(next_result, iterations=found[0].iterations + next_result.iterations, converged=True), trial
-        if TOPPLES_STILL not in self.warnings:
-            self.warnings += (TOPPLES_STILL,)
-        return found
+    def _static_state(self, pose):
+        """The same from the catenaries."""
+        return self._equilibria.from_cold(self._state, pose)
 
     def _equilibrium(self, pose, time):
         """State and StaticResult at the pose of a step to `time` (s)."""
@@ -548,34 +463,6 @@ class Mooring:
                 f"no equilibrium for the step to t = {time:.6g} s: {error}; settle() at a pose that the platform is to be put to, or take "
                 f'fidelity "dynamic"; the mooring stands at t = {self.time:.6g} s'
             ) from error
-
-    def _swing(self, state, duration):
-        """Let everything move for `duration` (s) without friction, the platform held, and stop it whenever it has gathered most of its speed.
-
-        Returns the evaluations that it took, times nodes, and whether it has come to rest (or cannot go on).
-        """
-        model = self._model
-        free = model._replace(failures=build_failures([]), ground=model.ground._replace(law=NO_FRICTION))
-        start, effort, before, report, readings = state.position.copy(), 0.0, 0.0, np.zeros(4), new_readings(model, 1)
-        state.clock[0] = 0.0
-        _halt(state)
-        evaluate_once(free, state, self._scratch, 0.0, 0.0, True)
-        for time in np.arange(1, PIECES + 1) * (duration / PIECES):
-            status, _ = explicit.run(
-                free, state, self._scratch, self._table, np.array([time]), state.pose[None].copy(), np.zeros((1, *state.twist.shape)), report, readings
-            )
-            effort += report[0] * model.size
-            energy = (model.mass * state.velocity**2).sum() + (model.rigid.mass[:, None] * state.parts[:, 7:10] ** 2).sum()
-            if energy < before:
-                _halt(state)
-            before = energy if energy >= before else 0.0
-            if status != explicit.DONE:
-                break
-        _halt(state)
-        if state.grip.size:
-            state.grip[3] = NO_CONTACT
-        farthest = np.abs(state.position - start).max()
-        return effort, status != explicit.DONE or farthest < AT_REST * max(self._statics.lengths)
 
     def _history(self, times, readings):
         return History.of(times, readings._replace(wrench=self._platforms.outside(readings.wrench)))
@@ -623,14 +510,14 @@ class Mooring:
 
     def _linearised(self, pose):
         """A LinearResponse about `pose`; the state stands in equilibrium there after it, or where it was when there is none."""
-        before = _copy(self._state)
+        before = copied(self._state)
         try:
             _assign(self._state, self._next_static_state(pose)[0])  # what is solved around it begins there
             response, state = linearise(
                 self._model,
                 pose,
                 lambda there: self._next_static_state(there)[0],
-                lambda there: self._statics.platform_stiffness(_copy(there), self._scratch),
+                lambda there: self._statics.platform_stiffness(copied(there), self._scratch),
             )
         except MooringError:
             _assign(self._state, before)
@@ -713,17 +600,6 @@ def _bytes(model):
     """The bytes of all numbers in a model, one after another."""
     for part in model:
         yield from _bytes(part) if isinstance(part, tuple) else (np.asarray(part).tobytes(),)
-
-
-def _halt(state):
-    state.velocity[:] = 0.0
-    state.expected[:] = 0.0
-    state.lead[:] = 0.0
-    state.parts[:, 7:] = 0.0
-
-
-def _copy(state):
-    return State(*(array.copy() for array in state))
 
 
 def _assign(state, other):
