@@ -106,6 +106,8 @@ class Velocity(NamedTuple):
         """What makes twists of poses at times inside."""
         if not self.rate:
             return OnlineTwist()
+        if self.bandwidth >= 0.5 * self.rate:
+            raise ValueError(f"input_bandwidth is {self.bandwidth:g} Hz, expected less than half of input_rate, {self.rate:g} Hz")
         rate = self.rate / time_factor
         return PoseFilter(1.0 / rate, self.bandwidth / time_factor or min(DEFAULT_BANDWIDTH, _LARGEST_SHARE * rate))
 
@@ -143,6 +145,7 @@ class Gate:
         self._tracker = self._velocity.tracker(self.adapter.time_factor)
         self.frame_clock = self._velocity.frame_clock()
         self._origin = None
+        self._real, self._interval = None, 0        # ns: time of the last sample that was none of ours, and from the one before to it
         self._candidate = None
         self._agreeing = 0
 
@@ -216,15 +219,6 @@ class Gate:
     # --- checks: each returns None, or (reason, words) ---
 
     def _check_sample(self, sample, now):
-        # The sum of numbers with one among them that is not finite is not finite; of numbers so large, it is no loss either.
-        if not math.isfinite(sum(sample.pose)):
-            return NON_FINITE, f"pose {_short(sample.pose)} is not finite"
-        if sample.twist is not None and not math.isfinite(sum(sample.twist)):
-            return NON_FINITE, f"twist {_short(sample.twist)} is not finite"
-        # hypot keeps a huge component from overflowing
-        norm = math.hypot(*sample.pose[3:7])
-        if abs(norm - 1.0) > UNIT_TOLERANCE:
-            return QUATERNION, f"quaternion {_short(sample.pose[3:7])} has length {norm:.6g}, expected 1"
         if sample.frame != self.frame and sample.frame and self.frame:
             return FRAME, f"frame of the pose is {sample.frame!r}, expected {self.frame!r}"
         if sample.child_frame != self.child_frame and sample.child_frame and self.child_frame:
@@ -235,6 +229,15 @@ class Gate:
                 return STALE, f"sample is {age:.3f} s old, limit {self.limits.input_age:g} s"
             if -age > self.limits.input_age:
                 return AHEAD, f"stamp is {-age:.3f} s ahead of the clock, limit {self.limits.input_age:g} s"
+        # The sum of numbers with one among them that is not finite is not finite; of numbers so large, it is no loss either.
+        if not math.isfinite(sum(sample.pose)):
+            return NON_FINITE, f"pose {_short(sample.pose)} is not finite"
+        if sample.twist is not None and not math.isfinite(sum(sample.twist)):
+            return NON_FINITE, f"twist {_short(sample.twist)} is not finite"
+        # hypot keeps a huge component from overflowing
+        norm = math.hypot(*sample.pose[3:7])
+        if abs(norm - 1.0) > UNIT_TOLERANCE:
+            return QUATERNION, f"quaternion {_short(sample.pose[3:7])} has length {norm:.6g}, expected 1"
         if self._freshness is not None and self._freshness.frozen(sample.pose) and sample.twist is None and sample.stamp != self._last_stamp:
             return FROZEN, "pose came again bit for bit, of a source whose poses never did: is the platform out of sight?"
         return None
@@ -329,9 +332,11 @@ class Gate:
         if last is None or self._lost_run > self.limits.lost_frames or sample.stamp <= last.stamp:
             return None
         time = None if self.frame_clock is None else self.frame_clock.propose(sample.stamp)
-        ahead = self._seconds((sample.stamp if time is None else time) - last.time)
-        if ahead <= 0.0 or self.limits.gap and ahead > self.limits.gap:
+        time = sample.stamp if time is None else time
+        # A stamp that leaps is no reason to leap along: so many intervals between frames since the last that was real, and no more.
+        if time <= last.time or max(time, sample.stamp) - self._real > (self.limits.lost_frames + 0.5) * self._interval:
             return None
+        ahead = self._seconds(time - last.time)
         self.bridged += 1
         pose, twist = carry_on(last.pose, last.twist, ahead, last.acceleration)
         return self._accept(Motion(sample.stamp, pose, twist, last.acceleration, time, bridged=True))
@@ -349,6 +354,10 @@ class Gate:
             self.frame_clock.take(motion.time, motion.stamp)
         if self.resets is not None and (self.last is None or motion.stamp < self.last.stamp):
             self.resets.begin(motion.stamp)
+        if not motion.bridged:
+            if self._real is not None:
+                self._interval = motion.time - self._real if self.frame_clock is None else self.frame_clock.period
+            self._real = motion.time
         self.last, self._after_reset = motion, False
         self._candidate, self._agreeing = None, 0
         return motion

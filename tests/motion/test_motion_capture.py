@@ -172,3 +172,28 @@ def test_stamps_are_put_right_where_twists_are_given_as_well():
     admitted = run(the_gate, made)
     assert len(admitted) == len(made) and np.abs(label_errors(admitted)).max() < 0.1 * PERIOD
     assert all(np.allclose(np.divide(motion.twist[:3], 50.0 ** 0.5), frame.twist[:3]) for frame, motion in admitted)
+
+
+@pytest.mark.parametrize("leap", [0.1, 5.0, 3600.0, -3600.0])
+@pytest.mark.parametrize("rate", [0.0, recorded.RATE])
+def test_a_frame_without_the_platform_whose_stamp_leaps_is_not_bridged_and_shuts_out_nothing(leap, rate):
+    made = recorded.frames(1.0, noise=0.0)
+    lost = recorded.occluded(made, 120, 1)[120].sample
+    the_gate = gate(rate=rate, lost_frames=10)
+    run(the_gate, made[:120])
+    last = the_gate.last
+    assert the_gate.admit(lost._replace(stamp=lost.stamp + round(leap * 1e9))) is None and the_gate.last is last
+    assert len(run(the_gate, made[120:])) == 130
+
+
+def test_another_bodys_frames_without_numbers_are_not_bridged():
+    made = recorded.frames(1.0)
+    the_gate = gate(lost_frames=10)
+    run(the_gate, made[:120])
+    other = recorded.occluded(made, 120, 1)[120].sample._replace(frame="another")
+    assert the_gate.admit(other) is None and the_gate.bridged == 0 and the_gate.rejected["frame"] == 1
+
+
+def test_a_bandwidth_past_half_the_rate_is_refused_in_the_words_of_the_parameters():
+    with pytest.raises(ValueError, match="input_bandwidth is 60 Hz, expected less than half of input_rate, 100 Hz"):
+        gate(rate=100.0, bandwidth=60.0)
