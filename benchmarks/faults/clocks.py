@@ -56,12 +56,12 @@ def a_tenth_lost(rig):
     rig.expect("input", "steps were lost")
 
 
-@fault("a flood: 2000 samples as fast as they can be sent",
-       "none needed: what the queue of 100 cannot hold is lost, the others are answered, in order")
+@fault("a flood: 5000 samples as fast as they can be sent",
+       "none needed: what the queue of 1000 cannot hold is lost, the others are answered, in order")
 def flood(rig):
     rig.send(20)
     rig.mark()
-    rig.send(2000, answered=False)
+    rig.send(5000, answered=False)
     rig.answer(rig.stamp - STEP)
     rig.send(20)
 

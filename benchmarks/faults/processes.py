@@ -87,13 +87,16 @@ def sigkill(folder):
     return rig
 
 
-@fault("the process stopped for 2 s (SIGSTOP) while samples come", "none needed: what waited is answered, sample by sample")
+@fault("the process stopped for 2 s (SIGSTOP) while samples come at 200 Hz", "none needed: all that waited are answered, sample by sample")
 def process_stopped(rig):
     rig.send(20)
+    count = len(rig.peer.heard)
     rig.process.send(signal.SIGSTOP)
-    rig.send(50, answered=False, period=0.04)
+    rig.send(400, answered=False, period=0.005)
     rig.process.send(signal.SIGCONT)
     rig.answer(rig.stamp - STEP)
+    if len(rig.peer.heard) - count != 400:
+        raise Wrong(f"{len(rig.peer.heard) - count} of 400 samples are answered")
     rig.send(20)
 
 

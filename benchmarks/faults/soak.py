@@ -81,7 +81,7 @@ def soak(folder, minutes, rate):
     return {
         "minutes": minutes, "rate": rate, "sent": len(sent),
         "missing": len(set(sent) - set(peer.stamps)), "doubled": len(stamps) - len(set(peer.stamps)),
-        "finite": peer.finite, "drift": _drift(arrivals, rate), "latest (ms)": 1e3 * late, "memory (MiB)": [m / 2**20 for m in memory],
+        "finite": peer.finite, "drift": _drift(stamps, arrivals), "latest (ms)": 1e3 * late, "memory (MiB)": [m / 2**20 for m in memory],
         "growth (%)": 100.0 * (np.mean(warm[-third:]) / np.mean(warm[:third]) - 1.0), "status": status,
         "not recorded": {topic: len(sent) - count for topic, count in recorded.items() if count != len(sent)},
         "recording (MB)": file.stat().st_size * 1e-6, "replay": replayed, "warnings": sorted(peer.worst_level),
@@ -108,10 +108,10 @@ def _drive(peer, node, count, rate):
     return sent, memory, late
 
 
-def _drift(arrivals, rate):
-    """Relative difference of the rate of the answers from the rate asked for: slope of the least-squares line through their times of arrival."""
-    number = np.arange(len(arrivals))
-    return float(np.polyfit(number, arrivals - arrivals[0] - number / rate, 1)[0] * rate) if len(arrivals) > 1 else float("inf")
+def _drift(stamps, arrivals):
+    """By how much the clock of the answers runs slow: slope of the least-squares line through arrivals (n,) s over stamps (n,) ns, less one."""
+    times = 1e-9 * (stamps - stamps[0]) if len(stamps) > 1 else np.zeros(0)
+    return float(np.polyfit(times, arrivals - arrivals[0] - times, 1)[0]) if len(times) else float("inf")
 
 
 def _recorded(file):

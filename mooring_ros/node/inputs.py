@@ -12,7 +12,8 @@ ODOMETRY, POSE, TWIST = "nav_msgs/msg/Odometry", "geometry_msgs/msg/PoseStamped"
 
 # Reliable, since in lockstep a lost sample is a simulator that waits for ever; `qos_overrides` parameters change it. A reliable subscription
 # hears nothing of a best-effort publisher, which camera systems often are: `Inputs.review` sees that.
-DEPTH = 100
+# Deep enough to keep what comes while a busy machine lets the node wait for a second or two.
+DEPTH = 1000
 
 
 class Inputs:

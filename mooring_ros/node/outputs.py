@@ -17,6 +17,7 @@ from mooring_ros.recording import schedule
 from mooring_ros.recording.qos import Qos
 
 _DEPTH = 50
+_ANSWERS = 1000     # as many as the inputs that may wait: their answers come in one burst
 _TYPES = {messages.WRENCH: WrenchStamped, messages.JOINT_STATE: JointState, messages.FLOAT_ARRAY: Float64MultiArray}
 _LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
@@ -33,7 +34,8 @@ class Outputs:
         self.visual_rate = visual_rate
         self._shown = None
         self._publishers = {}
-        self._totals = [self._publisher(WrenchStamped, messages.WRENCH, topic) for topic in messages.total_topics("~", mooring.platforms)]
+        self._totals = [self._publisher(WrenchStamped, messages.WRENCH, topic, QoSProfile(depth=_ANSWERS))
+                        for topic in messages.total_topics("~", mooring.platforms)]
         self._fairleads = [self._publisher(WrenchStamped, messages.WRENCH, messages.fairlead_topic("~", name))
                            for name in mooring.coupled_names]
         self._lines = self._publisher(JointState, messages.JOINT_STATE, "~/lines")
