@@ -112,6 +112,14 @@ def test_nodes_and_markers_come_at_the_visual_rate(peer):
         peer.node.destroy_subscription(subscription)
 
 
+def test_steps_that_were_left_out_are_counted_and_told(peer):
+    for k in range(40):
+        if k not in (20, 30, 31):
+            peer.ask(0.01 * k)
+    _, values, message = peer.diagnostic("input", lambda level, values, _: level == WARN and values["lost steps"] == "3")
+    assert values["gaps"] == "2" and values["nominal step (s)"] == "0.01" and "3 steps were lost" in message
+
+
 BAD = {
     "non_finite": dict(t=1.01, x=math.nan),
     "quaternion": dict(t=1.01, q=(0.0, 0.0, 0.0, 0.0)),
