@@ -333,8 +333,10 @@ class Gate:
             return None
         time = None if self.frame_clock is None else self.frame_clock.propose(sample.stamp)
         time = sample.stamp if time is None else time
-        # A stamp that leaps is no reason to leap along: so many intervals between frames since the last that was real, and no more.
-        if time <= last.time or max(time, sample.stamp) - self._real > (self.limits.lost_frames + 0.5) * self._interval:
+        # A stamp that leaps is no reason to leap along: so many intervals between frames since the last that was real, and no more; the stamp
+        # of a frame that is late itself may be as much again.
+        most = (self.limits.lost_frames + 0.5) * self._interval
+        if time <= last.time or time - self._real > most or sample.stamp - self._real > 2.0 * most:
             return None
         ahead = self._seconds(time - last.time)
         self.bridged += 1

@@ -197,3 +197,10 @@ def test_another_bodys_frames_without_numbers_are_not_bridged():
 def test_a_bandwidth_past_half_the_rate_is_refused_in_the_words_of_the_parameters():
     with pytest.raises(ValueError, match="input_bandwidth is 60 Hz, expected less than half of input_rate, 100 Hz"):
         gate(rate=100.0, bandwidth=60.0)
+
+
+def test_frames_without_the_platform_are_bridged_in_a_bunch_as_well():
+    made = recorded.occluded(recorded.bunched(recorded.frames(2.0)), 350, 4)
+    assert made[352].sample.stamp - made[351].sample.stamp > 3e9 * PERIOD
+    the_gate = gate(lost_frames=5)
+    assert len(run(the_gate, made)) == len(made) and the_gate.bridged == 4
