@@ -61,6 +61,7 @@ def a_tenth_lost(rig):
 def flood(rig):
     rig.send(20)
     rig.mark()
+    rig.judge.tolerance = 1e-6      # the way over the samples that are lost is a violent one, which multiplies what is rounded off
     rig.send(5000, answered=False)
     rig.answer(rig.stamp - STEP)
     rig.send(20)

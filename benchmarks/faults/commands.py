@@ -17,7 +17,8 @@ def parameters_refused(rig):
         done, reason = rig.services.set(name, value)
         if done or not reason:
             raise Wrong(f"parameter {name} could be set to {value!r} while active, or was refused without a reason")
-    rig.shown.append(("the service's answer", reason, 0.0))
+        if name == "scene":
+            rig.shown.append(("the service's answer", reason, 0.0))
     rig.send(20)
 
 

@@ -160,7 +160,9 @@ def recording_impossible(folder):
         rig.expect("core", "/proc/nowhere", allowed=2.5, level=2)
         if not rig.services.set("recording.path", str(Path(folder) / "run.mcap"))[0]:
             raise Wrong("recording.path cannot be set when the node is not configured")
+        shown = rig.shown
         rig.fresh()
+        rig.shown = shown
         rig.send(20)
     finally:
         rig.__exit__()

@@ -26,6 +26,7 @@ class Judge:
         """A new session: the first answer settles."""
         self._mooring = Mooring(self._scene)
         self.good = {}
+        self.tolerance = TOLERANCE
         self._settle_at = None
         self._last = None
         self._held, self._base, self.share = False, None, 1.0
@@ -83,7 +84,7 @@ class Judge:
         off = np.abs(np.array(heard.wrench) - expected)
         scale = np.repeat([np.abs(expected[:3]).max(), np.abs(expected[3:]).max()], 3)
         self.worst = max(self.worst, float((off / scale).max()))
-        if self.worst > TOLERANCE:
+        if self.worst > self.tolerance:
             raise Wrong(f"the wrench at {heard.stamp * 1e-9:.9f} s is {np.array(heard.wrench)}, expected {expected}")
         self.checked += 1
 
