@@ -1,7 +1,7 @@
 """The delay of a running node as its peer sees it, by how far the force lags the motion; with the motion predicted and not.
 
-The lines are quasi-static, so the force has no lag of its own: where its first harmonic lags the surge, it is late. By clocks of the wall, in processes of
-their own.
+The lines are quasi-static, so the force has no lag of its own: where its first harmonic lags the surge, it is late. By clocks of the wall, in
+processes of their own.
 """
 
 import math

@@ -121,8 +121,8 @@ class Gate:
 
     received, accepted: counts. rejected: Counter of REASONS. cause: words for the last refusal. frame, child_frame: as given by the
     parameters, else pinned to those of the first accepted sample ("" in a message means not said, and is let through). bridged: frames without a
-    pose over which the motion was carried on. velocity: see Velocity. resets: what tells a simulation's reset from a reordered sample (node.resets), or None.
-    restarts: resets after which a new motion was begun. missing: whom a gate of several waits for (ensemble.py); one waits for nobody.
+    pose over which the motion was carried on. velocity: see Velocity. resets: what tells a simulation's reset from a reordered sample
+    (node.resets), or None. restarts: resets after which a new motion was begun. missing: whom a gate of several waits for (ensemble.py); one waits for nobody.
     """
 
     missing = ""
