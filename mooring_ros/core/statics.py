@@ -423,7 +423,9 @@ class StaticSolver:
         own = total[held][:, held].toarray()
         if not kept.size:
             return own
-        moves = splu(total[kept][:, kept].tocsc()).solve(total[kept][:, held].toarray())
+        factors = splu(total[kept][:, kept].tocsc())
+        # column by column: all at once takes ten times as long for a hundred of them
+        moves = np.column_stack([factors.solve(column) for column in total[kept][:, held].toarray().T])
         return own - total[held][:, kept] @ moves
 
 
