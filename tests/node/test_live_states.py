@@ -40,10 +40,10 @@ def test_an_input_that_stops_is_followed_by_the_ramp_to_the_static_wrench_and_on
         peer.wait(lambda: len(peer.wrenches) == 30)
         answer = numbers(peer.wrenches[-1])
         peer.diagnostic("state", lambda level, values, _: level == WARN and values["state"] == HOLD, timeout=10.0)
-        peer.spin(1.5)
+        target = static(1.45)
+        peer.wait(lambda: np.allclose(numbers(peer.wrenches[-1]), target, rtol=1e-5, atol=100.0), what="the static wrench")
         held = peer.wrenches[30:]
-        assert len(held) > 100 and {round(stamp_of(m), -4) for m in held} == {round(stamp_of(peer.wrenches[29]), -4)}
-        np.testing.assert_allclose(numbers(held[-1]), static(1.45), rtol=1e-5, atol=100.0)
+        assert len(held) > 5 and {round(stamp_of(m), -4) for m in held} == {round(stamp_of(peer.wrenches[29]), -4)}
         np.testing.assert_allclose(numbers(held[0]), answer, rtol=1e-2)
         for k in range(30):
             peer.send(clock.now().nanoseconds * 1e-9, 1.45)
@@ -61,7 +61,7 @@ def test_an_input_that_stops_is_followed_by_the_ramp_to_the_static_wrench_and_on
     arrays = [deserialize_message(message.data, DiagnosticArray) for topic, message in entries if topic == "/diagnostics"]
     assert any("HOLD: no good input" in status.message for array in arrays for status in array.status)
     times = [message.log_time for topic, message in entries if topic == "/mooring/wrench"]
-    assert sorted(times) == times and len(times) > 160      # the ramp has times of its own
+    assert sorted(times) == times and len(times) > 65      # the ramp has times of its own
     replay = [sys.executable, "-m", "mooring_ros.offline", "replay", file, file, "-o", tmp_path / "again.mcap", "--json"]
     identical = json.loads(subprocess.run(replay, capture_output=True, text=True, check=True).stdout)["identical"]
     tensions = sum(topic == "/mooring/line_tensions" for topic, _ in entries)
