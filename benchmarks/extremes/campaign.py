@@ -99,7 +99,7 @@ def run(seeds, folder, solver="auto", processes=None, progress=None):
 def reason(result):
     """The words of a refusal without its numbers, for counting."""
     words = result["words"]
-    for key in ("did not converge", "stretches a line", "faster than", "ran away", "needs more than"):
+    for key in ("did not converge", "stretches a line", "faster than", "ran away", "needs more than", "comes to no balance"):
         if key in words:
             return key
     return words
