@@ -31,7 +31,7 @@ SUDDEN, SUDDEN_PIECES = 0.08, 32  # of a tension and the line's weight: its chan
 KEPT = 8  # steps for which a finer step is kept
 SPECTRAL_RADIUS = 0.6
 LONGEST, STEPS_A_SWING = 0.05, 50.0  # s; of the step that is taken when none is given
-UNDAMPED = 0.2  # of it where no water takes the waves across the lines away
+UNDAMPED = 0.1  # of it where no water takes the waves across the lines away
 HARD_BED, ON_HARD_BED = 2e-3, 0.4  # s, of StepLimit's bed damping: below, what lands stops at once and the line rings; the step is so much shorter there
 SMOOTHING = 1e-3  # s: samples closer than this share one mean acceleration
 LEAST_STRAIN = 1e-9
@@ -112,7 +112,7 @@ def advance(model, state, scratch, plan, work, scheme, longest, time, poses, twi
     """Advance `state` to `time` (s), where the platforms have poses (M, 7) and twists (M, 6), in steps of at most `longest` (s). Returns a status code.
 
     A refused interval leaves the state as it was. `report` (4,) gets evaluations, pieces of steps, those taken again, and the shortest (s).
-    `progress` (1,): steps done when PARTED is returned; called again with other equations, the interval is gone on with.
+    `progress` (1,): steps done when PARTED is returned; called again with other equations, the interval is gone on with, or ended.
     """
     duration = time - state.clock[0]
     start_motions(state, poses, twists, duration, scratch.motion)
@@ -154,8 +154,7 @@ def advance(model, state, scratch, plan, work, scheme, longest, time, poses, twi
                 keep_start(model, state, work)
                 evaluate_in_place(model, state, scratch, 0.0, 0.0, settings[2] != 0.0)
                 recall_start_accelerations(state, work)
-                if progress[0] < steps:
-                    return PARTED
+                return PARTED
     progress[0] = 0
     torn = good and overstretched(model, state, settings[5])
     if torn or not good:

@@ -29,6 +29,7 @@ from .rigid import turn_by
 MOST_ITERATIONS = 12
 SEARCHES = 4  # how often a Newton step is halved at most
 WORSE, BOLD = 10.0, 4  # times what was missed that a Newton step may leave: slack and contact come and go, and the one after knows of it; in how many iterations
+BETTER = 0.9  # ... in later ones: steps to and fro across the narrow range of speeds in which a node sticks lessen nothing
 LOOSE = 1e-2  # of Plan.scale: what may remain in the shortest piece of a step, where the bed's laws have no balance
 TOLERANCE = 1e-4  # of Plan.scale: forces out of balance that may remain
 NEWTON_DONE, NOT_BALANCED = 0, 1
@@ -248,7 +249,7 @@ def balance_step(model, state, scratch, plan, work, scheme, h, end, tolerance):
             largest = out_of_balance(model, state, scratch, plan, work.balance)
             new = mixed_merit(model, state, plan, work.axial, work.damper, work.foreseen, work.linear, work.balance, work.left)
             evaluations += 1
-            if largest <= TOLERANCE or new <= (WORSE if iteration < BOLD else 1.0) * max(merit, before) or search == SEARCHES:
+            if largest <= TOLERANCE or new <= (WORSE if iteration < BOLD else BETTER) * max(merit, before) or search == SEARCHES:
                 break
             share *= 0.5
             apply(model, state, plan, work, -share, c_v, c_m, c_a)

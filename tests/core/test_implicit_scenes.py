@@ -74,6 +74,22 @@ def test_lines_part_at_their_time_and_the_rest_goes_on():
     assert mine.fairlead_tension[-1, 1] == pytest.approx(theirs.fairlead_tension[-1, 1], rel=0.01)
 
 
+def test_a_line_that_parts_with_a_sample_gives_the_same_bits_in_one_run_and_step_by_step():
+    """What comes after the last step of an interval has other equations, too."""
+    kind = line_type(0.1, 30.0, 2e6, -0.3, drag=1.2, added=1.0)
+    points = [(FIXED, (-40, 0, -40)), (FIXED, (40, 0, -40)), (FREE, (0, 0, -15), 500.0), (COUPLED, (0, 0, 0))]
+    made = scene(points, [(kind, 1, 3, 55.0, 8), (kind, 2, 3, 55.0, 8), (kind, 3, 4, 16.0, 4)], depth=100.0)
+    made = dataclasses.replace(made, failures=(Failure(1, 3, (1,), 0.5),))
+    times = 0.25 * np.arange(1, 9)
+    poses, twists = surge_heave(times, 0.3, 0.2, 4.0)
+    one, other = (Mooring(made, solver="implicit", dt=0.05) for _ in range(2))
+    one.settle(HERE), other.settle(HERE)
+    whole = one.run(times, poses, twists).fairlead_tension
+    for k, sample in enumerate(zip(times, poses, twists)):
+        other.step(*sample)
+        assert (other.fairlead_tension == whole[k]).all()
+
+
 def test_a_line_let_go_falls_as_with_explicit_steps():
     places = []
     for solver in ("implicit", "explicit"):
