@@ -83,8 +83,9 @@ class Judge:
         self._sent = np.array(heard.wrench)
         off = np.abs(np.array(heard.wrench) - expected)
         scale = np.repeat([np.abs(expected[:3]).max(), np.abs(expected[3:]).max()], 3)
-        self.worst = max(self.worst, float((off / scale).max()))
-        if self.worst > self.tolerance:
+        share = float((off / scale).max())
+        self.worst = max(self.worst, share)
+        if share > self.tolerance:
             raise Wrong(f"the wrench at {heard.stamp * 1e-9:.9f} s is {np.array(heard.wrench)}, expected {expected}")
         self.checked += 1
 

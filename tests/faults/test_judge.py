@@ -30,6 +30,18 @@ def test_right_answers_pass(answered):
     assert judge.checked == 5 and judge.worst == 0.0
 
 
+def test_what_one_session_may_be_off_is_not_held_against_the_next_one(answered):
+    judge, answers = answered
+    judge.tolerance = 1e-5
+    judge.check(answers[0]._replace(wrench=tuple(x * (1.0 + 1e-6) for x in answers[0].wrench)))
+    good = judge.good
+    judge.begin()
+    judge.good = good
+    for answer in answers:
+        judge.check(answer)
+    assert judge.checked == 6 and judge.worst > 1e-7
+
+
 @pytest.mark.parametrize("change, words", [
     (lambda a: a._replace(wrench=(np.nan, *a.wrench[1:])), "not finite"),
     (lambda a: a._replace(wrench=(a.wrench[0] * (1.0 + 1e-6), *a.wrench[1:])), "expected"),
