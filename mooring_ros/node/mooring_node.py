@@ -1,6 +1,7 @@
 """The managed node: it ties parameters, inputs, session, outputs, recording and diagnostics to the lifecycle."""
 import gc
 import os
+import sys
 import time
 
 import numpy as np
@@ -36,6 +37,8 @@ FAILURE = TransitionCallbackReturn.FAILURE
 
 DIAGNOSTICS_PERIOD = 1.0    # s
 NEWS_PERIOD = 0.1           # s: what is new is told within it
+SWITCH_INTERVAL = 0.0005    # s: how long the recorder's thread may keep the interpreter from an answer
+_USUAL_SWITCH_INTERVAL = sys.getswitchinterval()
 # A simulation's clock that leaps by more (ns) has been set, or has just been heard for the first time: nothing was silent meanwhile.
 _JUMPS = JumpThreshold(min_forward=Duration(nanoseconds=500_000_000), min_backward=Duration(nanoseconds=-1), on_clock_change=False)
 
@@ -108,6 +111,7 @@ class MooringNode(LifecycleNode):
         gc.collect()
         gc.freeze()
         gc.disable()
+        sys.setswitchinterval(SWITCH_INTERVAL)
         self._ask_for_real_time(values)
         self.get_logger().info(f"active: listens to {', '.join(self._inputs.topics)}")
         return super().on_activate(state)
@@ -215,6 +219,7 @@ class MooringNode(LifecycleNode):
             self.publish_diagnostics(self._state_machine.current_state[1])
             gc.enable()
             gc.unfreeze()
+            sys.setswitchinterval(_USUAL_SWITCH_INTERVAL)
         if self._companion is not None:
             self._companion.close()
             self._companion = None
