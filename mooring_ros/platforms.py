@@ -9,6 +9,11 @@ POSE, TWIST = "x, y, z, qx, qy, qz, qw", "vx, vy, vz, wx, wy, wz"
 IDENTITY = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 
+def platform_count(names):
+    """How many platforms there are with these names: one where there are none."""
+    return len(names or (None,))
+
+
 class Platforms:
     """The platforms of a scene: one without a name, or named coupled bodies.
 
@@ -19,7 +24,7 @@ class Platforms:
 
     def __init__(self, names, scene):
         self.names = None if names is None else _checked(names, scene)
-        self.count = len(self.names or (None,))
+        self.count = platform_count(self.names)
         self._axis = () if self.names is None else (self.count,)
         self.shape_of_pose, self.shape_of_twist = (*self._axis, 7), (*self._axis, 6)
         self.pose_in_file = self.outside(np.array(_poses_in_file(self.names, scene)))

@@ -73,7 +73,6 @@ class Delay:
         omega, late = frequency or 0.0, max(self.mean, self.seconds) if self.mode == "given" else self.mean + self.seconds
         return [self.mean, self.percentile, self.lead, omega, -0.5 * omega * late, -0.5 * omega * (late - self.lead)]
 
-
     def status(self, frequency):
         """For diagnostics: whether a person should look, words, name -> value; frequency: rad/s, or None."""
         numbers = self.report(frequency)

@@ -1,7 +1,5 @@
 """The managed node: it ties parameters, inputs, session, outputs, recording and diagnostics to the lifecycle."""
-import gc
 import os
-import sys
 import time
 
 import numpy as np
@@ -13,7 +11,7 @@ from std_srvs.srv import Trigger
 from mooring_ros.mooring import Mooring, MooringError
 from mooring_ros.motion import Adapter, ConventionCheck, Gate, Limits, Velocity
 from mooring_ros.motion.ensemble import Checks, Ensemble
-from mooring_ros.node import guards, live, parameters, realtime
+from mooring_ros.node import guards, interpreter, live, parameters, realtime
 from mooring_ros.node.accuracy import Companion, report
 from mooring_ros.node.diagnostics import WARN, Diagnostics, fingerprint
 from mooring_ros.node.heartbeat import Heartbeat
@@ -28,6 +26,7 @@ from mooring_ros.node.session import Session
 from mooring_ros.node.states import HOLD, IDLE, SAFE, Transition
 from mooring_ros.node.timing import FixedRate, Pace
 from mooring_ros.node.winch import Winch
+from mooring_ros.platforms import platform_count
 from mooring_ros.recording.attached import AttachedScene
 from mooring_ros.recording.errors import RecordingError
 from mooring_ros.recording.writer import RecordingWriter
@@ -37,8 +36,6 @@ FAILURE = TransitionCallbackReturn.FAILURE
 
 DIAGNOSTICS_PERIOD = 1.0    # s
 NEWS_PERIOD = 0.1           # s: what is new is told within it
-SWITCH_INTERVAL = 0.0005    # s: how long the recorder's thread may keep the interpreter from an answer
-_USUAL_SWITCH_INTERVAL = sys.getswitchinterval()
 # A simulation's clock that leaps by more (ns) has been set, or has just been heard for the first time: nothing was silent meanwhile.
 _JUMPS = JumpThreshold(min_forward=Duration(nanoseconds=500_000_000), min_backward=Duration(nanoseconds=-1), on_clock_change=False)
 
@@ -91,7 +88,7 @@ class MooringNode(LifecycleNode):
         """Start a session: the first good sample settles. Subscriptions are made now, so being subscribed to says that it is active."""
         values = parameters.values(self)
         gate, check = self._make_gate(values)
-        self._session = Session(self._mooring, gate, Output(totals=len(self._mooring.platforms or (None,))), check, self._watch_now)
+        self._session = Session(self._mooring, gate, Output(totals=platform_count(self._mooring.platforms)), check, self._watch_now)
         self._refused = self._restarts = 0
         self._pace = Pace()
         if values["accuracy.enabled"]:
@@ -107,11 +104,7 @@ class MooringNode(LifecycleNode):
         self._inputs = (AllInputs if self._mooring.platforms else Inputs)(self, values["input"], values["twist_frame"], gate, self._take)
         self._winch = Winch(self, self._wind)
         self._heartbeat = Heartbeat(self, self._session.beat)
-        # Nothing of this start is garbage, and a collection in the middle of an answer would delay it: from here on, once a second.
-        gc.collect()
-        gc.freeze()
-        gc.disable()
-        sys.setswitchinterval(SWITCH_INTERVAL)
+        interpreter.be_punctual()
         self._ask_for_real_time(values)
         self.get_logger().info(f"active: listens to {', '.join(self._inputs.topics)}")
         return super().on_activate(state)
@@ -217,9 +210,7 @@ class MooringNode(LifecycleNode):
         if self._session is not None:
             self._reports.timing(self._punctuality, self._axis)
             self.publish_diagnostics(self._state_machine.current_state[1])
-            gc.enable()
-            gc.unfreeze()
-            sys.setswitchinterval(_USUAL_SWITCH_INTERVAL)
+            interpreter.be_usual()
         if self._companion is not None:
             self._companion.close()
             self._companion = None
@@ -435,7 +426,7 @@ class MooringNode(LifecycleNode):
             self.publish_diagnostics(lifecycle)
         if self._session is not None and now - self._collected >= DIAGNOSTICS_PERIOD:
             self._collected = now
-            gc.collect()
+            interpreter.collect()
             if self._session.delay.counted and self._axis is not None:
                 self._outputs.tell_delay(self._session.delay.report(self._omega()), self._axis)
             self._reports.timing(self._punctuality, self._axis)

@@ -13,6 +13,7 @@ from mooring_ros.mooring import MooringError
 from mooring_ros.motion import rotation
 from mooring_ros.node.messages import floats
 from mooring_ros.node.template import Template, placeholder
+from mooring_ros.platforms import platform_count
 
 RANGE = 1e-3            # of the longest line: a move that changes the stiffness of a catenary by some percent at most
 RANGE_ANGLE = 3e-3      # rad
@@ -42,7 +43,7 @@ class Stiffness:
         self._range = RANGE * max(mooring.unstretched_length, default=np.inf)
         self._at = self._pose = None
         self._settles = 0
-        size = 6 * len(mooring.platforms or (None,))
+        size = 6 * platform_count(mooring.platforms)
         slot = placeholder(size * size)
         message = Float64MultiArray(data=floats(slot))
         message.layout.dim = [MultiArrayDimension(label="wrench", size=size, stride=size * size), MultiArrayDimension(label="motion", size=size, stride=size)]

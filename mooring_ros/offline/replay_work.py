@@ -8,6 +8,7 @@ from mooring_ros.mooring import MooringError
 from mooring_ros.motion import Adapter
 from mooring_ros.node.full_scale import PREFIX, FullScale
 from mooring_ros.node.messages import Messages
+from mooring_ros.platforms import platform_count
 from mooring_ros.recording import schedule
 from mooring_ros.recording.reader import Recording
 
@@ -137,7 +138,7 @@ def _samples(args, motion):
 
 def _answer(mooring, composed, adapter, done):
     wrenches = composed.wrenches(np.vstack((mooring.wrench, mooring.coupled_wrenches)), mooring.pose)
-    totals = len(mooring.platforms or (None,))
+    totals = platform_count(mooring.platforms)
     return Answer(
         stamp=done.stamp,
         time=done.time,

@@ -10,6 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mooring_ros.platforms import platform_count
+
 SETTLE, STEP, RELEASE, WIND = 0, 1, 2, 3
 KINDS = ('settle', 'step', 'release', 'wind')
 MOVES = (SETTLE, STEP)               # the platform; each has an answer
@@ -33,7 +35,7 @@ class Action:
 
 def size(platforms):
     """Floats in a record of a mooring with these platforms (names, or None)."""
-    return 2 + _OF_PLATFORM * len(platforms or (None,))
+    return 2 + _OF_PLATFORM * platform_count(platforms)
 
 
 def encode_settle(time, pose):
