@@ -17,7 +17,7 @@ class Output:
 
     force: N, largest norm of the total force; a larger one is scaled down, moments with it. force_rate: N/s, fastest change of the total
     force; a faster one is followed at that rate. ramp_time: s, the cosine ramp after a start or a settle, from what went out before; at
-    first that is what ramp_from says: nothing (zero), or the static answer. hold_time: s, the ramp into and out of the static answer.
+    first, for ramp and rate, that is what ramp_from says: nothing (zero), or the static answer. hold_time: s, the ramp into and out of the static answer.
     totals: of how many platforms; the limits hold for each, and one factor for all, as lines hand on what they feel.
     Zero switches a limit or ramp off. All may be changed at any time. limited: how often each limit was reached;
     duration: s, of the ramp that goes on or was the last.
@@ -36,7 +36,7 @@ class Output:
         duration = self.hold_time if held else self.ramp_time
         if self._sent is None:
             duration = self.ramp_time
-            self._sent = np.zeros_like(static) if self.ramp_from == ZERO else np.array(static)
+            self._sent, self._sent_at = np.zeros_like(static) if self.ramp_from == ZERO else np.array(static), time
         self._begin_ramp(time, duration)
 
     def turn(self, time):
@@ -55,7 +55,7 @@ class Output:
         if self.force and size > self.force:
             out = out * (self.force / size)
             self.limited[FORCE] += 1
-        if self.force_rate and self._sent_at is not None:
+        if self.force_rate:
             change = out - self._sent
             size, most = self._largest(change), self.force_rate * max(time - self._sent_at, 0.0)
             if size > most:
@@ -69,8 +69,7 @@ class Output:
         return max(_norm(wrench) for wrench in wrenches[: self.totals])
 
     def _begin_ramp(self, time, duration):
-        if self._sent_at is not None:
-            self._sent_at = min(self._sent_at, time)    # the source's clock may have been set back
+        self._sent_at = min(self._sent_at, time)    # the source's clock may have been set back
         self.duration, self._base_at, self._base = duration, time, self._sent
 
     def _share(self, time):

@@ -36,11 +36,17 @@ def test_a_large_force_is_scaled_down_with_its_moment_and_counted():
 
 
 def test_a_fast_change_is_followed_at_the_given_rate():
-    output = started(force_rate=20.0)
+    output = started(force_rate=20.0, ramp_from=STATIC)
     output.apply(0.0, SAFE)
     np.testing.assert_allclose(output.apply(1.0, 2.0 * SAFE), 1.2 * SAFE)
     np.testing.assert_allclose(output.apply(2.0, 1.3 * SAFE), 1.3 * SAFE)
     assert output.limited == {FORCE_RATE: 1}
+
+
+def test_the_first_answer_goes_to_an_actuator_that_applies_nothing_and_keeps_to_the_rate_too():
+    output = started(force_rate=20.0)
+    np.testing.assert_allclose([output.apply(t, SAFE)[0, 0] for t in (0.0, 1.0, 3.0, 6.0)], [0.0, 20.0, 60.0, 100.0])
+    assert output.limited == {FORCE_RATE: 3}
 
 
 def test_a_turn_ramps_over_the_hold_time_from_what_goes_out_and_back():
@@ -76,7 +82,7 @@ def test_after_a_hold_the_ramp_takes_the_hold_time_where_a_start_takes_none():
 
 
 def test_a_clock_that_is_set_back_does_not_freeze_a_limited_rate():
-    output = started(force_rate=20.0)
+    output = started(force_rate=20.0, ramp_from=STATIC)
     output.apply(1000.0, SAFE)
     output.start(0.0, SAFE)
     np.testing.assert_allclose(output.apply(1.0, 2.0 * SAFE), 1.2 * SAFE)
