@@ -26,8 +26,8 @@ class MotionOfAll(Motion):
     __slots__ = ()
 
     @property
-    def first(self):
-        return self.pose[0], self.twist[0]
+    def each(self):
+        return tuple(zip(self.pose, self.twist))
 
     def ahead(self, seconds):
         return tuple(zip(*(carry_on(pose, twist, seconds, change) for pose, twist, change in zip(self.pose, self.twist, self.acceleration))))

@@ -83,9 +83,9 @@ class Motion(NamedTuple):
         return self.stamp if self.frame_time is None else self.frame_time
 
     @property
-    def first(self):
-        """Pose and twist of the platform, or of the first of several (ensemble.py)."""
-        return self.pose, self.twist
+    def each(self):
+        """(pose, twist) of every platform: of one, or of several (ensemble.py)."""
+        return ((self.pose, self.twist),)
 
     def ahead(self, seconds):
         """Pose and twist some seconds (inside) later."""

@@ -132,3 +132,20 @@ class Frequency:
         # of a motion that only goes on in one direction, this is the root of 12
         now = self._now()
         return now if now * self._passed > 2.0 * math.pi else None
+
+
+class Fastest:
+    """The Frequency of that platform of several which swings fastest: of those that the lines alone hold back, it loses most of its damping."""
+
+    def __init__(self, platforms=1):
+        self._each = [Frequency() for _ in range(platforms)]
+
+    def add(self, moment, motions):
+        """The motions at a moment (s): (pose (7,), twist (6,)) of every platform."""
+        for frequency, motion in zip(self._each, motions):
+            frequency.add(moment, *motion)
+
+    @property
+    def value(self):
+        """rad/s, or None before about one period of any has passed."""
+        return max((own.value for own in self._each if own.value), default=None)

@@ -6,7 +6,7 @@ import numpy as np
 
 from mooring_ros.mooring import MooringError
 from mooring_ros.motion.convention_check import WRONG
-from mooring_ros.node.delay import Delay, Frequency
+from mooring_ros.node.delay import Delay, Fastest
 from mooring_ros.node.states import ASKED, FAULT, FOUND, HOLD, IDLE, LOST, RAMP, RAMPED, SAFE, SETTLED, States, Watch
 from mooring_ros.node.steps_in import StepsIn
 from mooring_ros.node.timing import WALL_CLOCK, SourceClock
@@ -25,7 +25,7 @@ class Session:
     clock: gives ns of a steady clock (of the simulation's, where time is simulated); input and heartbeat are watched by it.
     states: the state machine; watch: its limits. unanswered: good samples without an answer; unwound: messages with unstretched lengths that
     were refused, unwound_cause: why the last was; most_wound: share of its length by which one of them may change a line, 0 for any.
-    delay: how late the answers are, and how far the motion is predicted for that; frequency: of the platform; aimed: the moment (ns) that the
+    delay: how late the answers are, and how far the motion is predicted for that; frequency: of the platform, of several the fastest; aimed: the moment (ns) that the
     last step was meant for, None after a settle. wrenches: (platforms + coupled, 6), the totals first, inside, as they go out now; shown: when, in ns of
     the source's clock.
     """
@@ -37,7 +37,7 @@ class Session:
         self.unwound_cause, self.most_wound = "", 0.0
         self.wrenches = self.shown = None
         self.source = SourceClock()
-        self.delay, self.frequency, self.aimed = Delay(), Frequency(), None
+        self.delay, self.frequency, self.aimed = Delay(), Fastest(output.totals), None
         self.steps_in = StepsIn()
         self._restarts = 0
         self._anew = True           # the next good sample settles: the first, and the first after a reset of the simulation
@@ -196,7 +196,7 @@ class Session:
         """Compare the twist of the last sample with its pose; may refuse the source. Not urgent: call it when the answer is out."""
         if self._unmeasured is not None:
             (time, motion), self._unmeasured = self._unmeasured, None
-            self.frequency.add(time, *motion.first)
+            self.frequency.add(time, motion.each)
         if self._unchecked is None:
             return
         (motion, sample), self._unchecked = self._unchecked, None
