@@ -15,7 +15,6 @@ import numpy as np
 from .mooring import Mooring, MooringError
 from .offline.trade_errors import errors_between
 from .offline.trade_window import swell
-from .platforms import platform_count
 from .scene.grouping import times_segments
 
 LEAD = 1.0 / 3.0  # of a window: the motion swells, nothing is compared
@@ -68,8 +67,7 @@ def estimate(scene, settings, times, poses, twists, lengths=None, released=(), p
 
     if times.size < LEAST_SAMPLES or not times.size - first > LEAST_SAMPLES // 3:
         return without(f"{times.size} samples, expected {LEAST_SAMPLES} or more")
-    for own in range(platform_count(settings.get("platforms"))):
-        swell(times, poses.reshape(times.size, -1, 7)[:, own], twists.reshape(times.size, -1, 6)[:, own], times[first] - times[0])
+    swell(times, poses, twists, times[first] - times[0])
 
     def tension(**changed):
         mooring = Mooring(scene, **{**settings, **changed})

@@ -23,6 +23,21 @@ def add_model_arguments(parser):
     parser.add_argument("--refine", type=positive, metavar="X", help="the scene's segments of each line times this; not with --segments")
 
 
+def add_topic_arguments(parser):
+    """--topic and --platforms: which part of a recording is the motion, and of what."""
+    parser.add_argument(
+        "--topic",
+        metavar="NAME",
+        help="which topic of an MCAP file is the motion (POSE,TWIST for a pair); of several platforms that of any, with its name in it (/platforms/body1/odom)",
+    )
+    parser.add_argument("--platforms", metavar="NAME,NAME", help="coupled bodies that move by themselves, where MOTION does not say so itself")
+
+
+def names_of(text):
+    """Names (a tuple) of a --platforms; none for None."""
+    return () if text is None else tuple(text.split(","))
+
+
 def fidelity(text):
     """A fidelity, or fidelities line by line; for argparse."""
     from mooring_ros.fidelity import check

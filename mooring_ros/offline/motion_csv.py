@@ -1,4 +1,7 @@
-"""Motion from a CSV file: `t,x,y,z,roll,pitch,yaw` (s, m, degrees) or `t,x,y,z,qx,qy,qz,qw[,vx,vy,vz,wx,wy,wz]`."""
+"""Motion from a CSV file: `t,x,y,z,roll,pitch,yaw` (s, m, degrees) or `t,x,y,z,qx,qy,qz,qw[,vx,vy,vz,wx,wy,wz]`.
+
+Of several platforms each has these columns with its name before them, `t,body1.x,body1.y,…,body2.x,…`.
+"""
 
 import math
 
@@ -20,7 +23,7 @@ EXPECTED = "t,x,y,z,roll,pitch,yaw (s, m, degrees) or t,x,y,z,qx,qy,qz,qw[,vx,vy
 
 
 def load_csv(path):
-    """The Motion in a CSV file; columns may stand in any order.
+    """The Motion in a CSV file; columns may stand in any order. Platforms with names are in the order of the header.
 
     Roll, pitch and yaw are about the fixed axes: R = Rz Ry Rx. Without a twist it is differentiated from the poses. A quaternion whose
     length is off by less than 1e-3 is normalised. Times are kept as they are; stamps are times in ns, counted from the first where that is negative.
@@ -36,6 +39,19 @@ def load_csv(path):
     if late.size:
         row = int(late[0]) + 1
         raise ValueError(f"{path}:{table.lines[row]}: time {times[row]:.9g} s after {times[row - 1]:.9g} s, expected it to increase")
+    stamps = np.rint((times - min(times[0], 0.0)) * 1e9).astype(np.int64)
+    names = _platforms(table.names)
+    if not names:
+        poses, twists, source = _motion(path, table, column)
+        return Motion(str(path), times, poses, twists, stamps, source)
+    each = [_motion(path, table, {"t": times} | {one.removeprefix(f"{name}."): own for one, own in column.items() if one.startswith(f"{name}.")}) for name in names]
+    poses, twists, sources = zip(*each)
+    return Motion(str(path), times, np.stack(poses, axis=1), np.stack(twists, axis=1), stamps, "; ".join(dict.fromkeys(sources)), platforms=names)
+
+
+def _motion(path, table, column):
+    """(poses (n, 7), twists (n, 6), source in words) of one platform's columns, dict of name -> values (n,)."""
+    times = column["t"]
     poses = np.empty((len(times), 7))
     poses[:, :3] = np.column_stack([column[name] for name in POSITION[1:]])
     if "roll" in column:
@@ -44,18 +60,28 @@ def load_csv(path):
         poses[:, 3:] = np.column_stack([column[name] for name in QUATERNION])
         _normalise(path, poses, table.lines)
     if "vx" in column:
-        twists, source = np.column_stack([column[name] for name in TWIST]), "pose and twist"
-    else:
-        twists, source = twist_from_poses(times, poses), "pose; twist differentiated from it"
-    stamps = np.rint((times - min(times[0], 0.0)) * 1e9).astype(np.int64)
-    return Motion(str(path), times, poses, twists, stamps, source)
+        return poses, np.column_stack([column[name] for name in TWIST]), "pose and twist"
+    return poses, twist_from_poses(times, poses), "pose; twist differentiated from it"
+
+
+def _platforms(names):
+    """Names of the platforms that columns with these names are of; none where no column has one."""
+    return tuple(dict.fromkeys(name.rpartition(".")[0] for name in names if "." in name))
 
 
 def _check_form(place, names):
-    if not any(sorted(names) == sorted(form) for form in FORMS):
-        unknown = [name for name in names if name not in POSITION + ANGLES + QUATERNION + TWIST]
-        what = f"unknown column {unknown[0]!r}" if unknown else f"columns {','.join(names)}"
-        raise ValueError(f"{place}: {what}, expected {EXPECTED}")
+    platforms = _platforms(names)
+    for own in platforms or ("",):
+        before = f"{own}." if own else ""
+        mine = [name for name in names if name.startswith(before) or name == "t"] if own else names
+        bare = [name.removeprefix(before) for name in mine]
+        if not any(sorted(bare) == sorted(form) for form in FORMS):
+            unknown = [name for name, short in zip(mine, bare) if short not in POSITION + ANGLES + QUATERNION + TWIST]
+            what = f"unknown column {unknown[0]!r}" if unknown else f"columns {','.join(mine)}"
+            raise ValueError(f"{place}: {what}, expected {EXPECTED}{f', those of {own} with {before} before them' if own else ''}")
+    strange = [name for name in names if platforms and "." not in name and name != "t"]
+    if strange:
+        raise ValueError(f"{place}: column {strange[0]!r} beside those of {', '.join(platforms)}, expected each but t to have a platform's name, as {platforms[0]}.x")
 
 
 def _normalise(path, poses, lines):

@@ -19,7 +19,7 @@ class Motion:
 
     path: str
     times: np.ndarray               # (n,) s; as in a CSV file; of MCAP see `motion_mcap`
-    poses: np.ndarray               # (n, 7) m and unit quaternion x, y, z, w; (n, platforms, 7) for a schedule with platforms
+    poses: np.ndarray               # (n, 7) m and unit quaternion x, y, z, w; (n, platforms, 7) of platforms with names
     twists: np.ndarray              # (n, 6) m/s and rad/s, world axes, or (n, platforms, 6)
     stamps: np.ndarray              # (n,) int ns, the stamps of the source
     source: str                     # in words: which topic or which columns
@@ -28,11 +28,7 @@ class Motion:
     parameters: dict | None = None  # of the node, for a recording of it
     scene: AttachedScene | None = None  # in the recording
     remarks: tuple = field(default=())      # str, what a user should know about how the file was read
-
-    @property
-    def platforms(self):
-        """Names of the platforms that the node had, a tuple; empty for one without a name."""
-        return tuple((self.parameters or {}).get("platforms") or ())
+    platforms: tuple = ()           # names of the platforms that it is of; empty for one without a name
 
     @property
     def start_ns(self):
@@ -40,20 +36,24 @@ class Motion:
         return int(self.stamps[0])
 
 
-def load_motion(path, topic=None):
+def load_motion(path, topic=None, platforms=()):
     """The Motion in a file or bag folder.
 
     topic: which one to take of an MCAP file that has several (`POSE_TOPIC,TWIST_TOPIC` for a pair); it also makes a recording of
-    the node be read by its input instead of its schedule.
+    the node be read by its input instead of its schedule. platforms: names of those that the motion is of; recordings of the node and columns of a CSV file
+    say so themselves.
     Raises ValueError (FILE:LINE or FILE: what is wrong, what was expected) and OSError.
     """
     path = os.fspath(path)
     if os.path.isdir(path) or path.endswith((".mcap", ".db3")) or is_mcap(path):
         from .motion_mcap import load_mcap
 
-        return load_mcap(path, topic)
+        return load_mcap(path, topic, tuple(platforms))
     if topic is not None:
         raise ValueError(f"{path}: a topic was named ({topic}), expected an MCAP file for that")
     from .motion_csv import load_csv
 
-    return load_csv(path)
+    motion = load_csv(path)
+    if platforms and motion.platforms != tuple(platforms):
+        raise ValueError(f"{path}: columns of {', '.join(motion.platforms) or 'one platform without a name'}, expected those of {', '.join(platforms)}, as {platforms[0]}.x")
+    return motion

@@ -12,13 +12,14 @@ from mooring_ros.recording import schedule
 from mooring_ros.recording.reader import Recording
 
 from .motion_file import Motion
+from .motion_of_all import own_topics, together
 from .stamps import kept, times_of
 
 ODOMETRY, POSE, TWIST = "nav_msgs/msg/Odometry", "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/TwistStamped"
 
 
-def load_mcap(path, topic=None):
-    """The Motion in an MCAP file or bag folder; `topic` as in `load_motion`.
+def load_mcap(path, topic=None, platforms=()):
+    """The Motion in an MCAP file or bag folder; `topic` and `platforms` as in `load_motion`.
 
     Stamps are those of the headers. Times are the stamps in s, from the first one where they are of a wall clock. Twists of Odometry are in
     the platform's axes, as the message says. Those of TwistStamped are in world axes, unless their frame is another one than the pose's:
@@ -27,7 +28,7 @@ def load_mcap(path, topic=None):
     Raises ValueError and RecordingError (a ValueError).
     """
     recording = Recording(path)
-    _check_platforms(recording)
+    platforms = _platforms(recording, platforms)
     found = {name: type_name for name, (type_name, count) in recording.topics().items() if count}
     cut = (f"{recording.cut}; what is before was taken",) if recording.cut else ()
     if topic is None and recording.parameters is not None:
@@ -36,23 +37,31 @@ def load_mcap(path, topic=None):
         if len(steps) > 1:
             raise ValueError(f"{path}: several step schedules ({', '.join(steps)}), expected one, or --topic for an input")
         if steps:
-            return _scheduled(recording, steps[0], cut)
-    pose_topic, twist_topic = _chosen(path, found, topic)
-    return _measured(recording, found, pose_topic, twist_topic, cut)
+            return _scheduled(recording, steps[0], cut, platforms)
+    if not platforms:
+        return _measured(recording, found, *_chosen(path, found, topic), cut)
+    each = [_measured(recording, own, *_chosen(path, own, asked), cut) for own, asked in own_topics(path, found, topic, platforms)]
+    return together(each, platforms, _adapter(recording.parameters, []).time_factor)
 
 
-def _check_platforms(recording):
-    names = (recording.parameters or {}).get("platforms", [])
+def _platforms(recording, asked):
+    """Names of the platforms: the recorded ones, or, where nothing is recorded, those that are asked for."""
+    if recording.parameters is None:
+        return asked
+    names = recording.parameters.get("platforms", [])
     if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
         raise ValueError(f"{recording.path}: recorded parameter platforms is {str(names)[:80]!r}, expected a list of names")
+    if asked and asked != tuple(names):
+        raise ValueError(f"{recording.path}: recorded with {'platforms ' + ', '.join(names) if names else 'one platform'}, expected the same as in --platforms")
+    return tuple(names)
 
 
-def _scheduled(recording, topic, remarks):
+def _scheduled(recording, topic, remarks, platforms):
     from std_msgs.msg import Float64MultiArray
 
     from .decoded import decoded
 
-    actions, stamps, expected, platforms = [], [], 0, recording.parameters.get("platforms")
+    actions, stamps, expected = [], [], 0
     for entry in recording.messages([topic]):
         if entry.sequence != expected:
             raise ValueError(f"{recording.path}: {abs(entry.sequence - expected)} records of the step schedule {topic} are missing after "
@@ -79,6 +88,7 @@ def _scheduled(recording, topic, remarks):
         parameters=recording.parameters,
         scene=recording.scene,
         remarks=(*remarks, *recording.damage),
+        platforms=platforms,
     )
 
 

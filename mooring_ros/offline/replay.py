@@ -7,7 +7,7 @@ import os
 
 from mooring_ros.motion.frames import scale_in_words
 
-from .arguments import add_model_arguments, load_mooring, positive
+from .arguments import add_model_arguments, add_topic_arguments, load_mooring, names_of, positive
 from .console import UsageError, complain, print_json, reading
 from .files import check_output, same_file
 
@@ -36,7 +36,8 @@ def add_arguments(parser):
         "motion",
         metavar="MOTION",
         help="CSV with a header t,x,y,z,roll,pitch,yaw (s, m, degrees) or t,x,y,z,qx,qy,qz,qw[,vx,vy,vz,wx,wy,wz]; MCAP with Odometry, or "
-        "PoseStamped and TwistStamped; a recording of the node replays bit for bit, with its own settings",
+        "PoseStamped and TwistStamped; a recording of the node replays bit for bit, with its own settings. Of several platforms each has these columns "
+        "with its name before them (t,body1.x,…,body2.x,…), or these topics with its name in them",
     )
     parser.add_argument("-o", "--output", metavar="OUT.mcap", required=True, help="recording to write")
     parser.add_argument("--csv", metavar="OUT.csv", help="tensions and wrench as a table as well")
@@ -48,7 +49,7 @@ def add_arguments(parser):
         help="step and answer at this rate from the first sample on, with pose and twist from the cubic Hermite curve through the recorded "
         "ones (default: at the recorded samples)",
     )
-    parser.add_argument("--topic", metavar="NAME", help="which topic of an MCAP file is the motion (POSE,TWIST for a pair)")
+    add_topic_arguments(parser)
     parser.add_argument(
         "--accuracy",
         action="store_true",
@@ -99,14 +100,11 @@ def _motion(args):
     from .motion_file import load_motion
 
     with reading(args.motion):
-        motion = load_motion(args.motion, args.topic)
+        motion = load_motion(args.motion, args.topic, names_of(args.platforms))
     if args.rate and motion.schedule is not None:
         raise UsageError(
             f"{args.motion}: a recording of the node is replayed step by step, expected no --rate, or --topic NAME with it to take an input's motion alone"
         )
-    if motion.platforms and motion.schedule is None:
-        names = ", ".join(motion.platforms)
-        raise UsageError(f"{args.motion}: recorded with platforms {names}: the motion of one does not say where the others are, expected no --topic")
     return motion
 
 
@@ -120,7 +118,7 @@ def _settings(args, motion):
     asked = {name: getattr(args, name) for name in MODEL if getattr(args, name) is not None}
     if motion.schedule is not None and any(value != settings[name] for name, value in asked.items()):
         complain(f"{args.motion}: recorded with {_listed(settings)}; with {_listed(asked)} the tensions will differ")
-    settings.update(asked, scene=os.fspath(args.scene))
+    settings.update(asked, scene=os.fspath(args.scene), platforms=list(motion.platforms))
     return settings
 
 

@@ -21,7 +21,7 @@ from mooring_ros.recording.writer import RecordingWriter
 from .console import ComputationFailed, reading
 
 NODE = "/mooring"
-ODOMETRY_TOPIC, ODOMETRY = "/platform/odom", "nav_msgs/msg/Odometry"
+ODOMETRY_TOPIC, ODOMETRY, ODOMETRY_OF = "/platform/odom", "nav_msgs/msg/Odometry", "/platforms/{}/odom"
 WORLD_FRAME, PLATFORM_FRAME = "world", "platform"
 _WAITING_MESSAGES = 20_000  # for the disk: more than these and the replay waits for it
 WRENCH_COLUMNS = ("fx", "fy", "fz", "mx", "my", "mz")
@@ -90,7 +90,9 @@ class McapOutput:
             self._part.unlink(missing_ok=True)
             self._writer = RecordingWriter(self._part, parameters, AttachedScene(os.path.basename(scene.path), scene.text, scene.files))
         self._wrench_topics = [*messages.total_topics(NODE, platforms), *(messages.fairlead_topic(NODE, name) for name in coupled_names)]
-        self._motion, self._step = _MotionTemplate(WORLD_FRAME, PLATFORM_FRAME), _step_template(schedule.size(platforms))
+        motions = {ODOMETRY_OF.format(name): name for name in platforms} if platforms else {ODOMETRY_TOPIC: PLATFORM_FRAME}
+        self._motions = [(topic, _MotionTemplate(WORLD_FRAME, frame)) for topic, frame in motions.items()]
+        self._step = _step_template(schedule.size(platforms))
         self._full_scale = full_scale
         self._sent = 0
 
@@ -112,8 +114,9 @@ class McapOutput:
         self._put(NODE + schedule.TOPIC_SUFFIX, schedule.TYPE_NAME, self._step.fill(0, record), stamp)
 
     def write_motion(self, stamp, pose, twist):
-        """The motion as Odometry. pose (7,), twist (6,) in world axes, SI units."""
-        self._put(ODOMETRY_TOPIC, ODOMETRY, self._motion.fill(stamp, pose, twist), stamp)
+        """The motion as Odometry. pose (7,), twist (6,), or a row for each platform with a name, in world axes, SI units."""
+        for (topic, template), own_pose, own_twist in zip(self._motions, pose.reshape(-1, 7), twist.reshape(-1, 6)):
+            self._put(topic, ODOMETRY, template.fill(stamp, own_pose, own_twist), stamp)
 
     def write_entry(self, entry):
         """A message of another recording, unchanged."""

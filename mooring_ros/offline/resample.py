@@ -13,8 +13,12 @@ def resample(times, poses, twists, rate):
 
     times (n,) s, increasing; poses (n, 7); twists (n, 6), world frame. In between, position and rotation are cubic Hermite
     curves of pose and twist, as in the core; where a recorded sample falls on a new time, it is taken unchanged, its time included.
+    Of several platforms poses are (n, platforms, 7), twists (n, platforms, 6), and so are the new ones.
     """
     times, poses, twists = (np.asarray(values, dtype=float) for values in (times, poses, twists))
+    if poses.ndim == 3:
+        each = [resample(times, poses[:, own], twists[:, own], rate) for own in range(poses.shape[1])]
+        return each[0][0], *(np.stack(rows, axis=1) for rows in list(zip(*each))[1:])
     steps = int(np.floor((times[-1] - times[0]) * rate * (1.0 + 1e-12) + 1e-9))
     new_times = times[0] + np.arange(steps + 1) / rate
     new_poses, new_twists = np.empty((steps + 1, 7)), np.empty((steps + 1, 6))

@@ -3,7 +3,7 @@
 import numpy as np
 
 from .angles import roll_pitch_yaw
-from .arguments import load_mooring, pose
+from .arguments import load_mooring, names_of, pose
 from .console import ComputationFailed, UsageError, print_json, table
 
 _AXES = ("x", "y", "z", "rx", "ry", "rz")
@@ -31,13 +31,13 @@ def _placed(text):
 
 
 def run(args):
-    names = args.platforms.split(",") if args.platforms is not None else None
+    names = names_of(args.platforms)
     last = dict(args.pose)
-    strange = [name for name in last if name not in (names or [None])]
+    strange = [name for name in last if name not in (names or (None,))]
     if strange:
         found = strange[0] or "a pose without a name"
         raise UsageError(f"--pose: {found}, expected {f'NAME=… of {args.platforms}' if names else 'X,Y,Z,ROLL,PITCH,YAW without a name, or --platforms'}")
-    solution = solve(args.scene, last if names else last.get(None, pose("0,0,0,0,0,0")), names)
+    solution = solve(args.scene, last if names else last.get(None, pose("0,0,0,0,0,0")), names or None)
     if args.json:
         print_json(solution)
     else:

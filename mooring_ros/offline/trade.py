@@ -3,7 +3,7 @@
 import time
 from pathlib import Path
 
-from .arguments import load_mooring, positive
+from .arguments import add_topic_arguments, load_mooring, names_of, positive
 from .console import ComputationFailed, complain, print_json, reading
 from .files import check_output
 
@@ -27,7 +27,7 @@ def add_arguments(parser):
                         "or the force at the fairlead, of which the wrench is made (force)")
     parser.add_argument("--time", type=positive, default=TIME, metavar="S",
                         help=f"CPU time that it may take, s, without compiling (default {TIME:g})")
-    parser.add_argument("--topic", metavar="NAME", help="which topic of an MCAP file is the motion (POSE,TWIST for a pair)")
+    add_topic_arguments(parser)
     parser.add_argument("--fresh", action="store_true", help="measure again what is in the cache")
     parser.add_argument("--json", action="store_true", help="one JSON object on standard output, nothing else")
 
@@ -39,8 +39,8 @@ def run(args):
     wanted = args.error is not None or args.budget is not None
     if wanted:
         check_output(parameters, args.scene, args.motion)
-    scene = load_mooring(args.scene).scene
     motion = _motion(args)
+    scene = load_mooring(args.scene, platforms=motion.platforms or None).scene
     for remark in (*scene.warnings, *motion.remarks):
         complain(remark)
     try:
@@ -51,8 +51,9 @@ def run(args):
     except ComputationFailed as failure:
         raise ComputationFailed(f"{args.scene}: {failure}") from failure
     found.scene, found.motion = str(args.scene), str(args.motion)
+    found.chosen_motion = tuple(word for option in ("topic", "platforms") if (said := getattr(args, option)) is not None for word in (f"--{option}", said))
     if found.chosen is not None:
-        _write_parameters(args, scene, parameters, found)
+        _write_parameters(args, scene, parameters, found, motion.platforms)
     if args.output:
         from .trade_report import write
 
@@ -85,7 +86,7 @@ def trade(scene, motion, error=None, budget=None, of="tension", seconds=TIME, fr
     goal = Goal(error, budget, QUANTITIES[of])
     cache = Cache(scene, motion, fresh)
     with Bar(seconds) as bar:
-        runner = Runner(scene, cache, bar)
+        runner = Runner(scene, cache, bar, motion.platforms or None)
         runner.window = window = _window(trade_window, runner, motion, seconds)
         reference = converged_reference(
             scene, window, lambda setting: runner.need(setting), WELL_BELOW * (error or 1.0), lambda: FOR_REFERENCE * seconds - runner.spent
@@ -126,18 +127,14 @@ def _motion(args):
     from .trade_motion import one_stretch
 
     with reading(args.motion):
-        motion = load_motion(args.motion, args.topic)
-        if motion.platforms:
-            names = ", ".join(motion.platforms)
-            raise ValueError(f"{args.motion}: recorded with platforms {names}, expected the motion of one platform: the trade is not built for several")
-        return one_stretch(motion)
+        return one_stretch(load_motion(args.motion, args.topic, names_of(args.platforms)))
 
 
-def _write_parameters(args, scene, path, found):
+def _write_parameters(args, scene, path, found, platforms):
     from .trade_parameters import write_parameters
 
     if not Path(scene.path).is_file():
         complain(f"{args.scene}: is a recording, and the node reads a MoorDyn v2 file: set scene in {path} to one")
     with reading(path):
-        write_parameters(path, scene.path or args.scene, found.chosen.setting, f"mooring trade {args.scene} {args.motion}: {found.why}")
+        write_parameters(path, scene.path or args.scene, found.chosen.setting, f"mooring trade {args.scene} {args.motion}: {found.why}", platforms)
     found.parameters = str(path)

@@ -85,7 +85,7 @@ def _scene_bytes(scene):
 
 
 def _motion_bytes(motion):
-    return [np.ascontiguousarray(values).tobytes() for values in (motion.times, motion.poses, motion.twists)]
+    return [repr(motion.platforms).encode(), *(np.ascontiguousarray(values).tobytes() for values in (motion.times, motion.poses, motion.twists))]
 
 
 def _version():

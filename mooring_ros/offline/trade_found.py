@@ -15,7 +15,8 @@ CHAOTIC = 5.0  # per cent of dynamic error that is left in the reference
 @dataclass
 class Found:
     """results: all of trade_family.Result, of which front are worth their cost; left_out: (Setting, why); chosen: Result or None, and why; of: tension or
-    force; runs, from_cache: counts; cpu: s, measuring; elapsed: s; parameters: path of the file that holds the chosen setting."""
+    force; runs, from_cache: counts; cpu: s, measuring; elapsed: s; chosen_motion: words of the command line that choose the motion in its file;
+    parameters: path of the file that holds the chosen setting."""
 
     window: Window
     reference: Reference
@@ -33,7 +34,13 @@ class Found:
     elapsed: float
     scene: str = ""
     motion: str = ""
+    chosen_motion: tuple = ()
     parameters: str | None = None
+
+    @property
+    def replay_command(self):
+        """The `mooring replay` that computes with the chosen setting."""
+        return self.chosen.setting.replay_command(self.scene, self.motion, self.chosen_motion)
 
     def error(self, result):
         """Errors of a result in what the trade is of."""
@@ -67,7 +74,7 @@ class Found:
             "left_out": [{**setting.arguments(), "why": why} for setting, why in self.left_out],
             "front": [self.results.index(result) for result in self.front],
             "goal": asdict(self.goal), "chosen": None if chosen is None else self._entry(chosen), "why": self.why, "parameters": self.parameters,
-            "replay": None if chosen is None else chosen.setting.replay_command(self.scene, self.motion),
+            "replay": None if chosen is None else self.replay_command,
             "remarks": self.remarks, "runs": self.runs, "from_cache": self.from_cache, "cpu": self.cpu, "elapsed": self.elapsed,
         }
 

@@ -24,14 +24,14 @@ class Measured:
     refused: str | None = None  # why there is nothing else
 
 
-def measure(scene, setting, window, limit, timed=True, tick=lambda: None):
+def measure(scene, setting, window, limit, timed=True, tick=lambda: None, platforms=None):
     """Measured of a setting on a trade_window.Window; stopped, as refused, where it takes more than `limit` s of CPU time for one pass.
 
-    Compiling is over before the clock starts. Without `timed` there is one pass. tick(): called now and then.
+    Compiling is over before the clock starts. Without `timed` there is one pass. tick(): called now and then. platforms: as of `Mooring`.
     """
     began = time.process_time()
     try:
-        mooring = Mooring(scene, **setting.arguments())
+        mooring = Mooring(scene, **setting.arguments(), platforms=platforms)
         taken = [text for text in mooring.warnings if text.startswith("dt =")]
         if taken:
             return _refused(taken[0], began)

@@ -19,7 +19,7 @@ def write(path, found):
         error = found.error(found.chosen)
         intro += report.paragraph(
             f"To use, {found.why}: {name(found.chosen.setting)}, with {error.worst:.3g} % at {1.0 / found.chosen.cost:.4g} times real time; "
-            f"written to {found.parameters}. The same offline: {found.chosen.setting.replay_command(found.scene, found.motion)}"
+            f"written to {found.parameters}. The same offline: {found.replay_command}"
         )
     elif found.why:
         intro += report.paragraph(f"Nothing to use: {found.why}.")

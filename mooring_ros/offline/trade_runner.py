@@ -44,10 +44,10 @@ class Bar:
 
 class Runner:
     """Measured runs of one scene. spent: s of CPU time that they took, now or when they came into the cache, so that a trade
-    decides alike when it goes on."""
+    decides alike when it goes on. platforms: as of `Mooring`."""
 
-    def __init__(self, scene, cache, bar):
-        self.scene, self._cache, self._bar = scene, cache, bar
+    def __init__(self, scene, cache, bar, platforms=None):
+        self.scene, self._cache, self._bar, self._platforms = scene, cache, bar, platforms
         self.window = None
         self.spent, self._warm, self._done = 0.0, set(), set()
 
@@ -62,7 +62,7 @@ class Runner:
             kind = setting.fidelity, setting.solver
             first = "" if kind in self._warm else " (compiling first)"
             self._bar.say(f"{what}, {setting.method}, {setting.mesh} segments, step {setting.step}{first}", self.spent)
-            found = measure(self.scene, setting, window, limit, timed, self._bar.tick)
+            found = measure(self.scene, setting, window, limit, timed, self._bar.tick, self._platforms)
             self._warm.add(kind)
             self._cache.keep(name, found)
         self.spent += found.spent

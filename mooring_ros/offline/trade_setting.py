@@ -36,9 +36,9 @@ class Setting:
             return "–"
         return "auto" if self.dt is None else f"{1e3 * self.dt:.4g} ms"
 
-    def replay_command(self, scene, motion):
-        """The `mooring replay` that computes with this setting."""
-        words = ["mooring", "replay", str(scene), str(motion), "-o", "out.mcap", "--fidelity", self.fidelity]
+    def replay_command(self, scene, motion, chosen=()):
+        """The `mooring replay` that computes with this setting. chosen: words that choose the motion in its file."""
+        words = ["mooring", "replay", str(scene), str(motion), *chosen, "-o", "out.mcap", "--fidelity", self.fidelity]
         if self.fidelity == "dynamic":
             words += ["--solver", self.solver]
         if self.dt is not None:

@@ -31,7 +31,7 @@ def text(found):
         error = found.error(found.chosen)
         lines += ["", f"To use (*), {found.why}: {name(found.chosen.setting)}; {error.worst:.3g} % at {1.0 / found.chosen.cost:.4g} times real time",
                   f"  {found.parameters}: for mooring_node, --ros-args --params-file",
-                  f"  {found.chosen.setting.replay_command(found.scene, found.motion)}"]
+                  f"  {found.replay_command}"]
     elif not found.why:
         lines += ["", "With --error PERCENT or --budget FACTOR, the setting to use is chosen and written as a parameter file."]
     return "\n".join(lines)

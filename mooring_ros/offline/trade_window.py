@@ -20,7 +20,7 @@ PLACES = 40  # of windows that are compared
 
 @dataclass(frozen=True)
 class Window:
-    """times (k + 1,) s, poses (k + 1, 7), twists (k + 1, 6): the first sample is settled at. compared: first of the k answers that is compared."""
+    """times (k + 1,) s, poses (k + 1, 7), twists (k + 1, 6), or a row for each platform: the first sample is settled at. compared: first of the k answers that is compared."""
 
     times: np.ndarray = field(repr=False)
     poses: np.ndarray = field(repr=False)
@@ -78,21 +78,28 @@ def choose(motion, cost, tension, effort):
 
 def motion_period(motion):
     """Mean period of the motion, s: 2 pi times its standard deviation over that of its speed, in the directions or turns where it is fastest."""
-    moved, speed = motion.poses[:, :3], motion.twists[:, :3]
-    spread, rate = moved.std(axis=0), speed.std(axis=0)
+    poses, twists = _each(motion.poses), _each(motion.twists)
+    spread, rate = (values[:, :, :3].std(axis=0).ravel() for values in (poses, twists))
     if not rate.max() > 0.0:
-        turned = np.array([rotation_between(motion.poses[0, 3:], pose[3:]) for pose in motion.poses[:: max(1, len(motion.poses) // 2000)]])
-        spread, rate = turned.std(axis=0), motion.twists[:, 3:].std(axis=0)
+        some = poses[:: max(1, len(poses) // 2000)]
+        turned = np.array([[rotation_between(first[3:], pose[3:]) for first, pose in zip(poses[0], row)] for row in some])
+        spread, rate = turned.std(axis=0).ravel(), twists[:, :, 3:].std(axis=0).ravel()
     axis = int(rate.argmax())
     return float(2.0 * np.pi * spread[axis] / rate[axis]) if rate[axis] > 0.0 else 0.0
 
 
 def swell(times, poses, twists, duration):
-    """Make the motion (in place) grow from rest at its first pose to itself over `duration` (s)."""
+    """Make the motion (in place) grow from rest at its first pose to itself over `duration` (s); poses (k, 7), twists (k, 6), or a row for each platform."""
     s = np.clip((times - times[0]) / duration, 0.0, 1.0)
     share, rate = s**3 * (10.0 + s * (6.0 * s - 15.0)), 30.0 * s**2 * (1.0 - s) ** 2 / duration
+    for own_poses, own_twists in zip(_each(poses).swapaxes(0, 1), _each(twists).swapaxes(0, 1)):
+        _swell(own_poses, own_twists, np.flatnonzero(s < 1.0), share, rate)
+
+
+def _swell(poses, twists, rows, share, rate):
+    """Of one platform, in place: `share` (k,) of the way from its first pose in `rows`, which grows at `rate` (k,) 1/s."""
     origin = poses[0].copy()
-    for row in np.flatnonzero(s < 1.0):
+    for row in rows:
         moved = poses[row, :3] - origin[:3]
         turned = np.array(rotation_between(origin[3:], poses[row, 3:]))
         poses[row, :3] = origin[:3] + share[row] * moved
@@ -101,11 +108,16 @@ def swell(times, poses, twists, duration):
         twists[row, 3:] = share[row] * twists[row, 3:] + rate[row] * turned
 
 
+def _each(values):
+    """Values (k, platforms, width), a view, of (k, width) or of themselves."""
+    return values.reshape(len(values), -1, values.shape[-1])
+
+
 def _place(motion, tension, length):
     """(start in s, why) of the window around the highest tension of the line that varies most, or around the highest speed."""
     times, instants = motion.times, motion.times[1:]
-    what = "tension" if tension is not None else "speed of the platform"
-    own = np.linalg.norm(motion.twists[1:, :3], axis=1) if tension is None else tension[:, int(tension.std(axis=0).argmax())]
+    what = "tension" if tension is not None else "speed of a platform"
+    own = np.linalg.norm(_each(motion.twists)[1:, :, :3], axis=2).max(axis=1) if tension is None else tension[:, int(tension.std(axis=0).argmax())]
     usual = own[instants >= times[0] + RUN_IN * (times[-1] - times[0])].std()
     peak = instants[int(own.argmax())]
     starts = np.linspace(max(times[0], peak - length), min(peak, times[-1] - length), PLACES)
