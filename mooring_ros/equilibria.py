@@ -13,7 +13,7 @@ from .core.ground import NO_CONTACT
 from .core.model import Model, Scratch, State
 from .core.poses import between, moved
 from .core.readings import new_readings
-from .core.statics import StaticSolver
+from .core.statics import StaticSolver, halt
 from .errors import MooringError
 
 NOT_AS_LAID = "statics with friction from the lines as laid did not converge: they hold on to the bed where they lie without friction"
@@ -135,7 +135,7 @@ class Equilibria:
         """
         model = self.model
         free = model._replace(failures=build_failures([]), ground=model.ground._replace(law=NO_FRICTION))
-        start, effort, before, report, readings = state.position.copy(), 0.0, 0.0, np.zeros(4), new_readings(model, 1)
+        start, effort, before, report, readings = state.position.copy(), 0.0, 0.0, np.zeros(5), new_readings(model, 1)
         state.clock[0] = 0.0
         halt(state)
         evaluate_once(free, state, self.scratch, 0.0, 0.0, True)
@@ -155,14 +155,6 @@ class Equilibria:
             state.grip[3] = NO_CONTACT
         farthest = np.abs(state.position - start).max()
         return effort, status != explicit.DONE or farthest < AT_REST * max(self.statics.lengths)
-
-
-def halt(state):
-    """Stop everything that moves."""
-    state.velocity[:] = 0.0
-    state.expected[:] = 0.0
-    state.lead[:] = 0.0
-    state.parts[:, 7:] = 0.0
 
 
 def copied(state):

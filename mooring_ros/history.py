@@ -18,6 +18,7 @@ class History:
     stretched_length: np.ndarray  # (k, lines) m
     length_rate: np.ndarray  # (k, lines) m/s
     coupled_wrenches: np.ndarray  # (k, outputs, 6) N, N m: at each coupled point, rod and body
+    uneven: np.ndarray  # (k,) of a dynamic mooring: see Mooring.last_step
 
     @classmethod
     def of(cls, times, readings):
@@ -32,4 +33,5 @@ class History:
             stretched_length=readings.length,
             length_rate=readings.length_rate,
             coupled_wrenches=readings.coupled,
+            uneven=readings.uneven.astype(int),
         )

@@ -165,6 +165,7 @@ class MixedMooring(Mooring):
             "evaluations": sum(step["evaluations"] for step in steps),
             "steps": max(step["steps"] for step in steps),
             "retries": sum(step["retries"] for step in steps),
+            "uneven": sum(step["uneven"] for step in steps),
             "dt": min((step["dt"] for step in steps if step["dt"] > 0.0), default=0.0),
         }
 
@@ -282,6 +283,7 @@ class MixedMooring(Mooring):
 
     def _merged(self, histories):
         whole = {"time": histories[0].time, "wrench": sum(history.wrench for history in histories)}
+        whole["uneven"] = sum(history.uneven for history in histories)
         whole["coupled_wrenches"] = self._at_outputs([history.coupled_wrenches for history in histories])
         for one in fields(History):
             if one.name not in whole:

@@ -130,7 +130,7 @@ class Mooring:
             idle = [what for what, there in (("waves", env.waves), ("line failures", self.scene.failures), ("creep of ropes", self._model.ropes.kelvin_first.size)) if there]
             if idle:
                 self.warnings += (f"{fidelity} moorings know no {', '.join(idle)}: still water, lines as they stand, ropes as they settle",)
-        self._report = np.zeros(4)
+        self._report = np.zeros(5)
         count = self._platforms.count
         self._time, self._pose, self._twist = np.zeros(1), np.zeros((1, count, 7)), np.zeros((1, count, 6))
         self._settled = False
@@ -432,9 +432,13 @@ class Mooring:
 
     @property
     def last_step(self):
-        """What the last interval took: evaluations of the forces, steps, parts taken again with a finer step, shortest step (s)."""
-        evaluations, steps, retries, dt = self._report
-        return {"evaluations": int(evaluations), "steps": int(steps), "retries": int(retries), "dt": float(dt)}
+        """What the last interval took: evaluations of the forces, steps, parts taken again with a finer step, shortest step `dt` (s).
+
+        `uneven`: parts in which tensions jump from step to step even in the finest: lines snap taut, and what single peaks are is a matter of
+        chance (docs/extremes.md).
+        """
+        evaluations, steps, retries, dt, uneven = self._report
+        return {"evaluations": int(evaluations), "steps": int(steps), "retries": int(retries), "dt": float(dt), "uneven": int(uneven)}
 
     # -- inside -----------------------------------------------------------------------------------------------------------------------
 
@@ -501,7 +505,7 @@ class Mooring:
             except MooringError as failure:
                 failure.samples = sample
                 raise
-            self._report[:] = result.iterations, 1.0, 0.0, times[sample] - self.time
+            self._report[:] = result.iterations, 1.0, 0.0, times[sample] - self.time, 0.0
             state.clock[0] = times[sample]
             _assign(self._state, state)
             observe(self._model, self._state, sample, readings)
@@ -542,7 +546,7 @@ class Mooring:
                 error.samples = sample
                 raise error from failure
             self._linear.show(self._state, pose, twist, sample, readings)
-            self._report[:] = self._linear.solved, 1.0, 0.0, times[sample] - self.time
+            self._report[:] = self._linear.solved, 1.0, 0.0, times[sample] - self.time, 0.0
             self._state.clock[0], self._state.pose[:], self._state.twist[:] = times[sample], pose, twist
         return times.size
 

@@ -11,10 +11,10 @@ from pathlib import Path
 
 from mooring_ros.core.cache import _sources_hash as sources_hash
 
-from .random_judge import judge
+from .random_judge import Ending, judge
 
 HANG, CRASH = "hang", "crash"
-PATIENCE = 120.0  # s for one scene, its finer runs included: beyond, it hangs
+PATIENCE = 600.0  # s for one scene, its finer runs included: beyond, it hangs
 FIRST = 900.0  # s for the first of a process, which may have to compile
 
 
@@ -23,8 +23,8 @@ def serve():
     for line in sys.stdin:
         seed, solver = line.split()
         began = time.perf_counter()
-        layout, outcome, words = judge(int(seed), solver)
-        print(json.dumps({"layout": layout, "outcome": outcome, "words": words, "seconds": round(time.perf_counter() - began, 3)}), flush=True)
+        ending = judge(int(seed), solver)
+        print(json.dumps({**ending._asdict(), "seconds": round(time.perf_counter() - began, 3)}), flush=True)
 
 
 class Worker:
@@ -51,7 +51,8 @@ class Worker:
         self._process = None
         process.kill()
         words = process.communicate()[1].strip().splitlines()[-1:] if answered else [f"no answer within {self._patience:g} s"]
-        return {"layout": "", "outcome": CRASH if answered else HANG, "words": " ".join(words), "seconds": self._patience}
+        lost = Ending("", CRASH if answered else HANG, " ".join(words))
+        return {**lost._asdict(), "seconds": self._patience}
 
     def close(self):
         if self._process is not None:

@@ -4,6 +4,8 @@ What is stated of default settings in any motion, jumps and snapping lines among
 `PEAK`, and every sample within what the tension is from the sample before to the one after it, as rms within `STATED` of the deviation.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from mooring_ros import Mooring, MooringError
@@ -25,8 +27,17 @@ BOUND = 1.5  # of the finest runs' peaks, where even those differ: no more than 
 CHAOTIC = "chaotic"  # finer and finer steps come to different forces: held to bounds
 
 
+class Ending(NamedTuple):
+    """How a seed's scene ended; uneven: share of the samples to which tensions jumped in the finest steps (`Mooring.last_step`)."""
+
+    layout: str
+    outcome: str
+    words: str
+    uneven: float = 0.0
+
+
 def judge(seed, solver="auto", settings=None):
-    """(layout, outcome, words) of a seed."""
+    """The Ending of a seed."""
     layout, scene, motion = random_case(seed)
     try:
         mooring = Mooring(scene, solver=solver, **(settings or {}))
@@ -35,13 +46,13 @@ def judge(seed, solver="auto", settings=None):
         step = mooring.step_limit.dt
         history = mooring.run(motion.times, motion.poses, motion.twists)
     except (SceneError, MooringError) as refusal:
-        return layout, REFUSED, str(refusal)
+        return Ending(layout, REFUSED, str(refusal))
     if not finite(history):
-        return layout, NOT_A_NUMBER, "a reading is not a finite number, or a line pushes"
+        return Ending(layout, NOT_A_NUMBER, "a reading is not a finite number, or a line pushes")
     verdict = from_claims(action_and_reaction(mooring, history))
     if verdict.outcome != RIGHT:
-        return layout, verdict.outcome, verdict.words
-    return (layout, *_beside_finer(scene, motion, history, step, start, mooring.solver))
+        return Ending(layout, verdict.outcome, verdict.words)
+    return Ending(layout, *_beside_finer(scene, motion, history, step, start, mooring.solver), float(np.mean(history.uneven > 0)))
 
 
 def _beside_finer(scene, motion, history, step, start, solver):

@@ -13,6 +13,7 @@ FOLDER = "out/extremes"
 BAD = (judge.WRONG, judge.NOT_A_NUMBER, campaign.HANG, campaign.CRASH)
 ORDER = (judge.RIGHT, "chaotic", judge.REFUSED, *BAD)
 SOLVERS = ("explicit", "implicit")
+OFTEN = 0.02  # of the samples: a run in which tensions jump in the finest steps more often than this tells its user
 OUTCOMES = {
     judge.RIGHT: "right",
     judge.REFUSED: "refused, as it should be",
@@ -53,6 +54,15 @@ def random_table(results):
     return tables.table(["layout", *ORDER], [[name.replace("_", " "), *(counts[name][outcome] for outcome in ORDER)] for name in names])
 
 
+def told_table(results):
+    """How many runs of each outcome say that tensions jump in their finest steps."""
+    told = defaultdict(Counter)
+    for result in results.values():
+        told[result["outcome"]][result["uneven"] > OFTEN] += 1
+    body = [[outcome, sum(told[outcome].values()), told[outcome][True]] for outcome in (judge.RIGHT, "chaotic", judge.WRONG)]
+    return tables.table(["outcome", "scenes", f"uneven in more than {100 * OFTEN:g} % of the samples"], body)
+
+
 def reasons_table(results):
     reasons = Counter(campaign.reason(result) for result in results.values() if result["outcome"] == judge.REFUSED)
     return tables.table(["refused because", "scenes"], [[f"... {words} ...", count] for words, count in reasons.most_common()])
@@ -62,7 +72,8 @@ def run(quick=False):
     """Both; everything that is wrong, no number, hung or crashed is a goal missed."""
     rows = battery()
     results = campaign.run(range(FEW if quick else SCENES), FOLDER)
-    content = {"extremes_battery": battery_table(rows), "extremes_random": random_table(results), "extremes_refused": reasons_table(results)}
+    content = {"extremes_battery": battery_table(rows), "extremes_random": random_table(results)}
+    content |= {"extremes_told": told_table(results), "extremes_refused": reasons_table(results)}
     for table in content.values():
         print(table, flush=True)
     failed = [f"{row['name']}, {solver}: {row['verdicts'][solver][1]}" for row in rows for solver in SOLVERS if row["verdicts"][solver][0] in BAD]

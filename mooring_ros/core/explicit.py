@@ -240,7 +240,8 @@ def advance(model, state, scratch, table, time, poses, twists, report):
 
     `table`: from `schemes.step_table`. The interval is taken in chunks. One whose tensions come out uneven is taken again from its start
     with half the step, down to one in `MOST_REFINED`, or in `FINEST` where they collapse, and the finer step is kept for a while. One that
-    runs away even in the finest steps is refused: the state is as it was. `report` (4,) gets evaluations, steps, chunks taken again and the shortest step (s).
+    runs away even in the finest steps is refused: the state is as it was. `report` (5,) gets evaluations, steps, chunks taken again, the shortest
+    step (s), and chunks whose tensions come out uneven however fine the steps.
     """
     duration = time - state.clock[0]
     start_motions(state, poses, twists, duration, scratch.motion)
@@ -259,7 +260,7 @@ def advance(model, state, scratch, table, time, poses, twists, report):
     average_acceleration(state, scratch, twists, duration, min(duration / smallest, 1.0))  # samples closer than a step share one mean: their differences are noise
     chunks = int(np.ceil(duration / min(CHUNK * largest, model.sea.refresh)))
     span = duration / chunks
-    evaluations_taken, steps_taken, retries, shortest, looked_ahead = 0.0, 0, 0, duration, False
+    evaluations_taken, steps_taken, retries, shortest, uneven, looked_ahead = 0.0, 0, 0, duration, 0, False
     for chunk in range(chunks):
         start = chunk / chunks
         source = min(chunk, 1)
@@ -301,6 +302,7 @@ def advance(model, state, scratch, table, time, poses, twists, report):
             evaluate_again(model, state, scratch)
             return RUNAWAY if wild else OVERSTRETCHED
         steps_taken += steps
+        uneven += tensions != EVEN
         shortest = min(shortest, h)
         now = state.clock[0] + (chunk + 1) * span
         if refined > settings[3]:
@@ -308,7 +310,7 @@ def advance(model, state, scratch, table, time, poses, twists, report):
         elif refined > 1.0 and now >= settings[4]:
             settings[3], settings[4] = 0.5 * refined, now + REFINED_STEPS * largest
     end_interval(state, time, poses, twists)
-    report[0], report[1], report[2], report[3] = evaluations_taken, steps_taken, retries, shortest
+    report[0], report[1], report[2], report[3], report[4] = evaluations_taken, steps_taken, retries, shortest, uneven
     return DONE
 
 
@@ -321,4 +323,5 @@ def run(model, state, scratch, table, times, poses, twists, report, readings):
         if status != DONE:
             return status, sample
         show(model, state, sample, readings)
+        readings.uneven[sample] = report[4]
     return DONE, times.size

@@ -24,7 +24,7 @@ class Member(NamedTuple):
     model: Model
     state: State
     table: np.ndarray  # (schemes, 3), schemes.step_table
-    report: np.ndarray  # (4,)
+    report: np.ndarray  # (5,)
     readings: Readings  # of one row
 
 

@@ -22,6 +22,7 @@ from .implicit_plan import make_topology
 from .packed import entry
 from .platforms import average_acceleration, end_interval, recall_acceleration, start_motions
 from .readings import show
+from .stability import nothing_damps
 from .surface import all_wet
 from .waves import copy_window, outdated, refresh
 
@@ -82,11 +83,13 @@ def take_step(model, state, scratch, plan, work, scheme, h, start, share, fastes
         tolerance = LOOSE if pieces == 1 else TOLERANCE
         status, iterations, evaluations = balance_step(model, state, scratch, plan, work, scheme, piece, end, tolerance)
         report[0] += evaluations
-        sudden = pieces > FINEST // SUDDEN_PIECES and tension_jumped(model, state, scratch, SUDDEN) != EVEN
+        jumped = tension_jumped(model, state, scratch, SUDDEN) != EVEN
+        sudden = jumped and pieces > FINEST // SUDDEN_PIECES
         if status == NEWTON_DONE and not sudden and not runaway(model, state, fastest):
             at += pieces
             report[1] += 1.0
             report[3] = min(report[3], piece)
+            report[4] += 1.0 if jumped else 0.0
             forget_landings(model, state, scratch.bed, work.touched, work.moved[0], piece)
             share_accelerations(model, state)
             if state.grip.shape[1] > 0:
@@ -111,7 +114,8 @@ def take_step(model, state, scratch, plan, work, scheme, h, start, share, fastes
 def advance(model, state, scratch, plan, work, scheme, longest, time, poses, twists, progress, report):
     """Advance `state` to `time` (s), where the platforms have poses (M, 7) and twists (M, 6), in steps of at most `longest` (s). Returns a status code.
 
-    A refused interval leaves the state as it was. `report` (4,) gets evaluations, pieces of steps, those taken again, and the shortest (s).
+    A refused interval leaves the state as it was. `report` (5,) gets evaluations, pieces of steps, those taken again, the shortest (s), and those in
+    which tensions jump however short they are.
     `progress` (1,): steps done when PARTED is returned; called again with other equations, the interval is gone on with, or ended.
     """
     duration = time - state.clock[0]
@@ -130,7 +134,7 @@ def advance(model, state, scratch, plan, work, scheme, longest, time, poses, twi
             work.settings[k] = settings[k]
         average_acceleration(state, scratch, twists, duration, min(duration / SMOOTHING, 1.0))
         work.settings[10] = 0.0  # whether the waves have been looked at further ahead
-        report[0], report[1], report[2], report[3] = 0.0, 0.0, 0.0, duration
+        report[0], report[1], report[2], report[3], report[4] = 0.0, 0.0, 0.0, duration, 0.0
     settings[0], settings[1], settings[8], settings[9] = 0.0, 0.0, 0.0, 0.0
     steps = int(np.ceil(duration / min(longest, model.sea.refresh) - 1e-9))
     h = duration / steps
@@ -182,6 +186,7 @@ def run(model, state, scratch, plan, work, scheme, longest, times, poses, twists
         if status != DONE:
             return status, sample
         show(model, state, sample, readings)
+        readings.uneven[sample] = report[4]
     return DONE, times.size
 
 
@@ -193,7 +198,7 @@ def step_limit(scene, limit, dt=None):
     longest = max(line.length for line in scene.lines)
     own = np.sqrt(longest / max(scene.environment.gravity, 1e-3)) / STEPS_A_SWING
     step, why = min(own, LONGEST), "accuracy of the lines' own swings" if own < LONGEST else "accuracy of the motion"
-    if scene.environment.water_density == 0.0 or any(line.type.drag_normal == 0.0 for line in scene.lines):
+    if nothing_damps(scene):
         step, why = UNDAMPED * step, "accuracy of waves that nothing damps"
     elif limit.limits["bed damping"] < HARD_BED:
         step, why = ON_HARD_BED * step, "accuracy of what lands on a hard bed"

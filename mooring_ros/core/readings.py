@@ -24,6 +24,7 @@ class Readings(NamedTuple):
     length: np.ndarray  # (k, lines) stretched, m
     length_rate: np.ndarray  # (k, lines), m/s
     coupled: np.ndarray  # (k, outputs, 6) on the platform at each coupled point, rod and body, N and N m
+    uneven: np.ndarray  # (k,) parts of the interval in which tensions jump from step to step, however fine the steps
 
 
 def new_readings(model, rows):
@@ -35,6 +36,7 @@ def new_readings(model, rows):
         np.zeros((rows, lines)),
         np.zeros((rows, lines)),
         np.zeros((rows, outputs, 6)),
+        np.zeros(rows),
     )
 
 

@@ -71,7 +71,7 @@ def step_limit(scene, model, end_point, dt=None):
         limits["axial accuracy"] = min(limits["axial accuracy"], ACCURACY * int(count) / omega)
         for name, step in _node_limits(model, slice(first, first + count + 1)):
             limits[name] = min(limits[name], step)
-    undamped = scene.environment.water_density == 0.0 or any(line.type.drag_normal == 0.0 for line in scene.lines)
+    undamped = nothing_damps(scene)
     best_ssp = max(axial[s] / s for s in SSP)
     accuracy, by = limits["axial accuracy"], "accuracy of the first axial mode"
     stages = max(min(SAFETY * axial[s], accuracy) / s for s in SSP)  # s an evaluation
@@ -103,6 +103,11 @@ def step_limit(scene, model, end_point, dt=None):
         return StepLimit(accurate, by, limits, usable)
     what = "bending" if limits["bending"] < limits["axial"] else "axial"
     return StepLimit(stable, f"stability of {what} waves in {worst}", limits, usable)
+
+
+def nothing_damps(scene):
+    """Whether there are lines whose transverse waves no drag takes away."""
+    return scene.environment.water_density == 0.0 or any(line.type.drag_normal == 0.0 for line in scene.lines)
 
 
 def axial_waves_stand_alone(model):

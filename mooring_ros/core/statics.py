@@ -85,12 +85,9 @@ class StaticSolver:
         state.pose[:] = pose
         state.twist[:] = 0.0
         state.acceleration_of_platform[:] = 0.0
-        state.velocity[:] = 0.0
-        state.expected[:] = 0.0
-        state.lead[:] = 0.0
+        halt(state)
         state.wet[:] = 1.0
         calm(state.window_times, state.window)
-        state.parts[:, 7:] = 0.0
         if first_guess:
             state.parts[:, :7] = model.rigid.start
         for p, node in enumerate(model.point_node):
@@ -444,6 +441,14 @@ class _Best:
     def take(self, state, first=False):
         """Put `state` there."""
         state.position[:], state.parts[:] = self._first if first else self._best
+
+
+def halt(state):
+    """Stop everything that moves."""
+    state.velocity[:] = 0.0
+    state.expected[:] = 0.0
+    state.lead[:] = 0.0
+    state.parts[:, 7:] = 0.0
 
 
 def _configuration(state):

@@ -141,6 +141,8 @@ def report(companion, pace, mooring, now):
     """(words, values) of the diagnostics: how accurate and how fast the mooring runs, and what limits it. companion: None when it is switched off."""
     limit, linear = mooring.step_limit, mooring.error_estimate
     values = {"real-time factor": _number(pace.real_time_factor)}
+    if pace.uneven:
+        values["answers with uneven steps"] = pace.uneven
     if pace.worst is not None:
         duration, at, evaluations, again = pace.worst
         values |= {"worst step (ms)": f"{1e-6 * duration:.3f}", "worst step at (s)": f"{at:.3f}", "worst step's evaluations": evaluations,

@@ -86,6 +86,7 @@ class Pace:
     def __init__(self, keep=1000):
         self._answers = deque(maxlen=keep)
         self.worst = None       # (ns, core time in s, evaluations, parts taken again) of the slowest step
+        self.uneven = 0         # answers to steps in which tensions jump however fine they are
 
     def add(self, core_time, duration, last_step):
         """An answer at core_time (s) took `duration` (ns); last_step: of the mooring."""
@@ -94,6 +95,7 @@ class Pace:
             self._answers.append((core_time, 0))
             return
         self._answers.append((core_time, duration))
+        self.uneven += last_step["uneven"] > 0
         if self.worst is None or duration > self.worst[0]:
             self.worst = duration, core_time, last_step["evaluations"], last_step["retries"]
 

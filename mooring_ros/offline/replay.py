@@ -86,6 +86,7 @@ def run(args):
         "simulated": done.simulated,
         "elapsed": done.elapsed,
         "real_time_factor": done.speed,
+        "uneven": {"answers": done.uneven[0], "first": done.uneven[1]},
         "settings": {name: settings[name] or None for name in MODEL},
         "identical": {"same": done.identical.same, "total": done.identical.total} if done.identical else None,
         "scene_is_recorded": scene_is_recorded,
@@ -149,6 +150,11 @@ def _text(found):
         text.append(f"{found['csv']}: the same as a table")
     if found["identical"]:
         text.append(f"identical: {found['identical']['same']} of {found['identical']['total']} recorded tension messages came out again, bit for bit")
+    if found["uneven"]["answers"]:
+        text.append(
+            f"uneven: in {found['uneven']['answers']} of {found['answers']} answers, the first at {found['uneven']['first']:.6g} s, tensions jump from step to step "
+            "however fine the steps: lines snap taut, and what single peaks are is a matter of chance"
+        )
     if found["accuracy"]:
         text.append(_accuracy_text(found["accuracy"]))
     return "\n".join(text)

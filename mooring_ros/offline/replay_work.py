@@ -27,12 +27,14 @@ INPUT_TYPES = (ODOMETRY, "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/Twi
 @dataclass(frozen=True)
 class Replayed:
     """answers written; simulated: s; elapsed: s of wall time; speed: simulated over wall time, without the first step and what it waits for
-    (compiling); identical: None when the motion came with no tensions."""
+    (compiling); uneven: answers to steps in which tensions jump however fine they are (Mooring.last_step), and the time (s) of the first of them;
+    identical: None when the motion came with no tensions."""
 
     answers: int
     simulated: float
     elapsed: float
     speed: float
+    uneven: tuple[int, float | None]
     identical: Identical | None
 
 
@@ -57,7 +59,7 @@ def replay(args, mooring, motion, settings, watched=None):
         steps = run_schedule(mooring, motion.schedule, motion.schedule_stamps, adapter.time_factor)
     else:
         steps = run_motion(mooring, *_samples(args, motion))
-    answers, pace = 0, Pace()
+    answers, uneven, pace = 0, [], Pace()
     with Stop() as stop, Outputs(args, mooring, settings, full_scale) as outputs, Progress("replay", float(np.ptp(motion.times))) as progress:
         try:
             for done in steps:
@@ -70,6 +72,8 @@ def replay(args, mooring, motion, settings, watched=None):
                     if identical:
                         identical.add(answer.stamp, answer.anchor_tension, answer.fairlead_tension)
                     answers += 1
+                    if done.kind == schedule.STEP and mooring.last_step["uneven"]:
+                        uneven.append(done.time)
                 pace.note(done.time)
                 progress.update(pace.simulated)
                 if stop.asked:
@@ -79,7 +83,7 @@ def replay(args, mooring, motion, settings, watched=None):
             raise ComputationFailed(_after(motion, pace.last, error)) from error
         except ValueError as error:
             raise UsageError(_after(motion, pace.last, error)) from error
-    return Replayed(answers, pace.simulated, pace.elapsed, pace.speed, identical if identical and identical.total else None)
+    return Replayed(answers, pace.simulated, pace.elapsed, pace.speed, (len(uneven), min(uneven, default=None)), identical if identical and identical.total else None)
 
 
 class Outputs:

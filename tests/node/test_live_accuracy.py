@@ -160,12 +160,15 @@ def test_over_the_long_run_no_more_than_its_share_is_taken():
 
 
 def test_the_pace_counts_steps_alone():
-    pace, last = Pace(), {"evaluations": 7, "retries": 2}
+    pace, last = Pace(), {"evaluations": 7, "retries": 2, "uneven": 0}
     assert pace.real_time_factor is None
     pace.add(0.0, 10**12, last)
     for k in range(1, 11):
         pace.add(0.1 * k, (5 if k == 4 else 1) * 10**6, last)
     assert pace.real_time_factor == pytest.approx(1.0 / 14e-3)
     assert pace.worst == (5 * 10**6, pytest.approx(0.4), 7, 2)
+    assert pace.uneven == 0
+    pace.add(1.1, 10**6, {**last, "uneven": 3})
+    assert pace.uneven == 1
     pace.add(0.0, 10**12, last)
     assert pace.real_time_factor is None and pace.worst[0] == 5 * 10**6

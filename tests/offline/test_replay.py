@@ -2,6 +2,7 @@
 
 import csv
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -202,6 +203,20 @@ def test_fidelities_line_by_line_are_replayed_and_recorded(scene, motion, moorin
     assert found["identical"] == {"same": 61, "total": 61} and found["settings"]["fidelity"] == "line1=quasi_static,default=linear"
     refused = mooring("replay", scene, motion, "-o", tmp_path / "three.mcap", "--fidelity", "line9=linear")
     assert refused.status == 2 and "line9" in refused.err and "expected line1, line2" in refused.err
+
+
+def test_lines_that_snap_are_told_of(scene, motion, mooring, tmp_path):
+    """The platform is thrown by 20 m and back every two seconds."""
+    t = np.arange(0, 81) * 0.05
+    moves = np.zeros((81, 14))
+    moves[:, 0], moves[:, 1], moves[:, 7] = t, 10.0 * (1.0 - np.cos(np.pi * t)), 1.0
+    moves[:, 8] = 10.0 * np.pi * np.sin(np.pi * t)
+    thrown = tmp_path / "thrown.csv"
+    np.savetxt(thrown, moves, delimiter=",", header="t,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz", comments="")
+    told = mooring("replay", scene, thrown, "-o", tmp_path / "one.mcap")
+    assert told.status == 0 and re.search(r"uneven: in \d+ of 81 answers", told.out) and "lines snap taut" in told.out
+    smooth = mooring("replay", scene, motion, "-o", tmp_path / "two.mcap", "--json").json()
+    assert smooth["uneven"] == {"answers": 0, "first": None}
 
 
 def test_accuracy_is_estimated_around_the_highest_tension(scene, motion, mooring, tmp_path):
