@@ -1,6 +1,6 @@
 """A mooring of very many lines: blocks of lines that fit the processor's cache, each advanced through many samples, on all cores.
 
-Lines that nothing but the platform and the ground joins do not feel each other. A step over all of them reads every array from the memory
+Lines that nothing but the platforms and the ground join do not feel each other. A step over all of them reads every array from the memory
 again and again; block by block it stays in the cache, and a block where lines snap takes finer steps by itself.
 """
 
@@ -14,6 +14,7 @@ from .core.layout import Layout
 from .errors import MooringError
 from .mixed import Group, MixedMooring
 from .mooring import Mooring
+from .platforms import Platforms
 from .scene.cutting import cut, joints
 from .scene.grouping import group_of_each, times_segments
 
@@ -57,15 +58,16 @@ def _blocks(scene, counts):
 class BlockMooring(MixedMooring):
     """A dynamic `Mooring` of many lines, as `Mooring(scene)` makes it from LARGE nodes on: in blocks, each a Mooring of its own."""
 
-    def __init__(self, scene, fidelity="dynamic", solver="auto", dt=None, segments=None, refine=1.0, **settings):
+    def __init__(self, scene, fidelity="dynamic", solver="auto", dt=None, segments=None, refine=1.0, *, platforms=None, **settings):
         self.fidelity = fidelity
         self.line_names = [line.name for line in self.scene.lines]
-        self.coupled_names = Layout(self.scene).outputs
+        self.platforms = Platforms(platforms, self.scene).names
+        self.coupled_names = Layout(self.scene, self.platforms or ()).outputs
         blocks = _blocks(self.scene, _counts(self.scene, segments, refine))
         line_of, output_of = ({name: k for k, name in enumerate(names)} for names in (self.line_names, self.coupled_names))
         self._groups, self._home = [], {}
-        for part in cut(self.scene, blocks):
-            mooring = Mooring(part, fidelity, solver, dt, segments, refine, **settings)
+        for part in cut(self.scene, blocks, self.platforms or ()):
+            mooring = Mooring(part, fidelity, solver, dt, segments, refine, platforms=self.platforms, **settings)
             lines, outputs = (np.array([of[name] for name in names], dtype=int) for of, names in ((line_of, mooring.line_names), (output_of, mooring.coupled_names)))
             self._groups.append(Group(fidelity, mooring, lines, outputs))
             self._home.update(dict.fromkeys(mooring.line_names, len(self._groups) - 1))

@@ -1,4 +1,4 @@
-"""A mooring whose lines have fidelities of their own: one mooring for each fidelity, on one platform."""
+"""A mooring whose lines have fidelities of their own: one mooring for each fidelity, on the same platforms."""
 
 from dataclasses import dataclass, field, fields
 
@@ -9,8 +9,9 @@ from .errors import MooringError
 from .fidelity import of_lines
 from .history import History
 from .mooring import Mooring, Snapshot
-from .scene.cutting import cut, joints
+from .platforms import Platforms
 from .scene import Scene, load_scene
+from .scene.cutting import cut, joints
 
 ORDER = ("quasi_static", "linear", "dynamic")  # in which they are stepped: a dynamic step that fails changes nothing, so it comes last
 
@@ -39,18 +40,17 @@ class MixedMooring(Mooring):
     names them otherwise. What cannot be asked of one fidelity (`error_estimate`) is the worst of those that know it.
     """
 
-    platforms = None  # one, with all that is coupled
-
-    def __init__(self, scene, fidelity, *positional, **settings):
+    def __init__(self, scene, fidelity, *positional, platforms=None, **settings):
         self.scene = scene if isinstance(scene, Scene) else load_scene(scene)
+        self.platforms = Platforms(platforms, self.scene).names
         self.line_names = [line.name for line in self.scene.lines]
         self.fidelity = of_lines(fidelity, self.line_names)
         self._refuse_joints()
         chosen = [one for one in ORDER if one in self.fidelity.values()]
         names = [{name for name, own in self.fidelity.items() if own == one} for one in chosen]
-        self.coupled_names = Layout(self.scene).outputs
+        self.coupled_names = Layout(self.scene, self.platforms or ()).outputs
         # what stands alone goes where the physics are fullest
-        scenes = cut(self.scene, names[::-1])[::-1]
+        scenes = cut(self.scene, names[::-1], self.platforms or ())[::-1]
         self._groups = [self._group(part, one, positional, settings) for one, part in zip(chosen, scenes)]
         self._fullest = self._groups[-1].mooring
         self.solver, self.choice = self._fullest.solver, self._fullest.choice
@@ -63,7 +63,7 @@ class MixedMooring(Mooring):
                 raise ValueError(f"fidelity: {joint} joins lines of different fidelities ({each}); expected one fidelity for them")
 
     def _group(self, scene, fidelity, positional, settings):
-        mooring = Mooring(scene, fidelity, *positional, **settings)
+        mooring = Mooring(scene, fidelity, *positional, platforms=self.platforms, **settings)
         lines, outputs = ([all_names.index(name) for name in names]
                           for all_names, names in ((self.line_names, mooring.line_names), (self.coupled_names, mooring.coupled_names)))  # fmt: skip
         return Group(fidelity, mooring, np.array(lines, dtype=int), np.array(outputs, dtype=int))
@@ -179,7 +179,8 @@ class MixedMooring(Mooring):
 
     @property
     def platform_of_coupled(self):
-        return [0] * len(self.coupled_names)
+        found = dict(pair for mooring in self._moorings for pair in zip(mooring.coupled_names, mooring.platform_of_coupled))
+        return [found[name] for name in self.coupled_names]
 
     @property
     def pose_in_file(self):

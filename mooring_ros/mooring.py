@@ -67,19 +67,17 @@ class Mooring:
     Raises SceneError for a bad scene, ValueError for bad arguments; MooringError when a computation cannot be completed.
     """
 
-    def __new__(cls, scene=None, fidelity="dynamic", solver="auto", dt=None, segments=None, refine=1.0, *_, platforms=None, **__):
+    def __new__(cls, scene=None, fidelity="dynamic", solver="auto", dt=None, segments=None, refine=1.0, *_, **__):
         if cls is not Mooring or scene is None:
             return object.__new__(cls)
         if is_by_line(fidelity):
-            if platforms is not None:
-                raise ValueError("platforms: lines with fidelities of their own are not built for several platforms; expected one fidelity for all lines")
             from .mixed import MixedMooring
 
             return object.__new__(MixedMooring)
         from .blocks import BlockMooring, is_large
 
         scene = scene if isinstance(scene, Scene) else load_scene(Path(scene))
-        large = fidelity == "dynamic" and solver != "implicit" and platforms is None and is_large(scene, segments, refine)
+        large = fidelity == "dynamic" and solver != "implicit" and is_large(scene, segments, refine)
         made = object.__new__(BlockMooring if large else cls)
         made.scene = scene
         return made

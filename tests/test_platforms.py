@@ -252,8 +252,6 @@ def test_poses_of_another_shape_and_steps_that_cannot_be_done_leave_it_as_it_was
 
 
 def test_what_is_not_built_for_several_platforms_is_refused_by_name():
-    with pytest.raises(ValueError, match="platforms: lines with fidelities of their own"):
-        pair(fidelity={"line1": "linear", "default": "dynamic"})
     with pytest.raises(ValueError, match="member 0 has platforms body1, body2; fleets are built for moorings with one platform each"):
         Fleet([pair()])
     with pytest.raises(ValueError, match="fleets are built for moorings with one platform each"):

@@ -1,4 +1,4 @@
-"""A scene cut into scenes of some of its lines each, which share the platform and the ground and nothing that moves by itself."""
+"""A scene cut into scenes of some of its lines each, which share the platforms and the ground and nothing that moves by itself."""
 
 from collections.abc import Sequence, Set
 from dataclasses import replace
@@ -29,18 +29,18 @@ def _joint(points: dict, rods: dict, bodies: dict, end: int | RodEnd) -> str | N
     return part.name if isinstance(end, RodEnd) or part.kind == FREE else None
 
 
-def cut(scene: Scene, groups: Sequence[Set[str]]) -> list[Scene]:
+def cut(scene: Scene, groups: Sequence[Set[str]], everywhere: Sequence[str] = ()) -> list[Scene]:
     """A Scene for each group of names of lines. Together they are the scene: what several of them hold has its own loads in the first of them,
-    what carries no line is in the first scene. No joint may have lines in two groups."""
+    what carries no line is in the first scene. everywhere: names of bodies that all of them have, whatever they carry. No joint may have lines in two groups."""
     taken: set[object] = set()  # what has its loads in an earlier scene
     scenes = []
     for number, names in enumerate(groups):
         lines = tuple(line for line in scene.lines if line.name in names)
-        scenes.append(_part(scene, lines, taken, first=number == 0))
+        scenes.append(_part(scene, lines, taken, everywhere, first=number == 0))
     return scenes
 
 
-def _part(scene: Scene, lines: tuple[Line, ...], taken: set[object], first: bool) -> Scene:
+def _part(scene: Scene, lines: tuple[Line, ...], taken: set[object], everywhere: Sequence[str], first: bool) -> Scene:
     ids = {line.id for line in lines}
     ends = {end for line in lines for end in (line.end_a, line.end_b)}
     elsewhere = {end for line in scene.lines if line.id not in ids for end in (line.end_a, line.end_b)}
@@ -59,7 +59,7 @@ def _part(scene: Scene, lines: tuple[Line, ...], taken: set[object], first: bool
     rods = [rod for rod in scene.rods if wanted(rod, rod.id in used_rods, rod.id in other_rods)]
     carriers = {part.body for part in (*points, *rods) if part.kind == BODY}
     all_carriers = {part.body for part in (*scene.points, *scene.rods) if part.kind == BODY}
-    bodies = [body for body in scene.bodies if body.id in carriers or first and body.id not in all_carriers]
+    bodies = [body for body in scene.bodies if body.id in carriers or body.name in everywhere or first and body.id not in all_carriers]
     return replace(
         scene,
         lines=lines,
