@@ -104,6 +104,12 @@ def load_mooring(scene, fidelity=None, solver=None, dt=None, segments=None, refi
         return Mooring(_recorded_scene(scene) or scene, **{name: value for name, value in chosen.items() if value is not None})
 
 
+def remarks_on(mooring):
+    """What a user should know about a Mooring: its warnings, and that nothing would follow a motion; list of str."""
+    nothing = [f"{mooring.scene.path}: nothing is coupled: the platform's motion moves nothing, and its wrench is zero"]
+    return [*mooring.warnings, *(nothing if not mooring.coupled_names else [])]
+
+
 def _recorded_scene(path):
     """The Scene in a recording, with the files that it was read from; None when the path is no recording's. Raises ValueError, OSError."""
     from mooring_ros.recording.reader import Recording

@@ -2,8 +2,8 @@
 
 import math
 
-from .arguments import load_mooring
-from .console import ComputationFailed, print_json
+from .arguments import load_mooring, remarks_on
+from .console import ComputationFailed, Preparing, print_json
 from .contents import contents, contents_text, g
 from .effects import effects, with_shares
 from .measure import measured_cost
@@ -16,7 +16,16 @@ def add_arguments(parser):
 
 
 def run(args):
-    found = inspect(args.scene)
+    with Preparing("check"):
+        mooring = load_mooring(args.scene)
+    found = {"scene": str(args.scene), **contents(mooring.scene)}
+    try:
+        with Preparing("check"):
+            found |= measured(args.scene, mooring)
+    except ComputationFailed:
+        if not args.json:  # what is in the scene may show why
+            print("\n".join([*contents_text(found), *_warnings_text(remarks_on(mooring))]))
+        raise
     if args.json:
         print_json(found)
     else:
@@ -24,11 +33,10 @@ def run(args):
     return 0
 
 
-def inspect(path):
-    """Everything about a scene, as the object that --json prints. Raises UsageError, ComputationFailed."""
+def measured(path, mooring):
+    """What computing a scene shows, as the second half of the object that --json prints. Raises ComputationFailed."""
     from mooring_ros.mooring import MooringError
 
-    mooring = load_mooring(path)
     scene = mooring.scene
     try:
         mooring.settle([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
@@ -38,8 +46,6 @@ def inspect(path):
     except MooringError as error:
         raise ComputationFailed(f"{path}: {error}") from error
     return {
-        "scene": str(path),
-        **contents(scene),
         "effects": switched,
         "cost_shares": passes,
         "solver": {"name": mooring.solver, "why": mooring.choice},
@@ -49,7 +55,7 @@ def inspect(path):
             "limits": {name: float(step) if math.isfinite(step) else None for name, step in limit.limits.items()},
         },
         "cost": cost,
-        "warnings": list(scene.warnings),
+        "warnings": remarks_on(mooring),
     }
 
 
@@ -73,10 +79,13 @@ def _text(found):
         "",
         f"Cost: {g(cost['real_time_factor'])} times real time, measured just now on this machine"
         f" ({g(cost['simulated'])} s simulated in {g(cost['elapsed'])} s, a sample of the motion every {g(cost['sample'])} s)",
+        *_warnings_text(found["warnings"]),
     ]
-    if found["warnings"]:
-        text += ["", "Warnings", *(f"  {warning}" for warning in found["warnings"])]
     return "\n".join(text)
+
+
+def _warnings_text(warnings):
+    return ["", "Warnings", *(f"  {warning}" for warning in warnings)] if warnings else []
 
 
 def _share(effect):

@@ -46,6 +46,25 @@ def table(headers, rows):
     return "\n".join(lines)
 
 
+class Preparing:
+    """A line on standard error while work of unknown length goes on; silent when that is no terminal."""
+
+    def __init__(self, what, stream=None):
+        self._stream = sys.stderr if stream is None else stream
+        self._what = what
+
+    def __enter__(self):
+        self._write(f"{self._what}: preparing (a new core is compiled first: a minute or more)")
+
+    def __exit__(self, *_):
+        self._write("\r\x1b[K")
+
+    def _write(self, text):
+        if self._stream.isatty():
+            self._stream.write(text)
+            self._stream.flush()
+
+
 class Progress:
     """A line on standard error that says how far the work has come; silent when that is no terminal."""
 

@@ -7,7 +7,7 @@ import os
 
 from mooring_ros.motion.frames import scale_in_words
 
-from .arguments import add_model_arguments, add_topic_arguments, load_mooring, names_of, positive
+from .arguments import add_model_arguments, add_topic_arguments, load_mooring, names_of, positive, remarks_on
 from .console import UsageError, complain, print_json, reading
 from .files import check_output, same_file
 
@@ -67,7 +67,7 @@ def run(args):
     motion = _motion(args)
     settings = _settings(args, motion)
     mooring = load_mooring(args.scene, **{name: settings[name] or None for name in MODEL}, platforms=motion.platforms or None)
-    for remark in (*mooring.warnings, *motion.remarks):
+    for remark in (*remarks_on(mooring), *motion.remarks):
         complain(remark)
     scene_is_recorded = _compare_scenes(args.scene, mooring.scene, motion)
 

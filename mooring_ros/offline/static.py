@@ -3,8 +3,8 @@
 import numpy as np
 
 from .angles import roll_pitch_yaw
-from .arguments import load_mooring, names_of, pose
-from .console import ComputationFailed, UsageError, print_json, table
+from .arguments import load_mooring, names_of, pose, remarks_on
+from .console import ComputationFailed, Preparing, UsageError, complain, print_json, table
 
 _AXES = ("x", "y", "z", "rx", "ry", "rz")
 
@@ -37,7 +37,10 @@ def run(args):
     if strange:
         found = strange[0] or "a pose without a name"
         raise UsageError(f"--pose: {found}, expected {f'NAME=… of {args.platforms}' if names else 'X,Y,Z,ROLL,PITCH,YAW without a name, or --platforms'}")
-    solution = solve(args.scene, last if names else last.get(None, pose("0,0,0,0,0,0")), names or None)
+    with Preparing("static"):
+        solution, remarks = solve(args.scene, last if names else last.get(None, pose("0,0,0,0,0,0")), names or None)
+    for remark in remarks:
+        complain(remark)
     if args.json:
         print_json(solution)
     else:
@@ -46,7 +49,7 @@ def run(args):
 
 
 def solve(scene, pose, platforms=None):
-    """The static solution at a pose (7,), as the object that --json prints: N, N·m, world frame. Raises UsageError, ComputationFailed.
+    """(the static solution at a pose (7,) as the object that --json prints: N, N·m, world frame; remarks). Raises UsageError, ComputationFailed.
 
     platforms: names; `pose` is then a dict of name -> pose (7,) of those that are not where the file has put them.
     """
@@ -73,7 +76,7 @@ def solve(scene, pose, platforms=None):
         mooring.anchor_end_force.tolist(),
     )
     keys = ("name", "fairlead_tension", "anchor_tension", "fairlead_end_force", "anchor_end_force")
-    return {
+    solution = {
         "lines": [dict(zip(keys, line)) for line in lines],
         **_wrench(mooring),
         "stiffness": np.asarray(stiffness).tolist(),
@@ -81,6 +84,7 @@ def solve(scene, pose, platforms=None):
         "iterations": int(found.iterations),
         **_parts(mooring),
     }
+    return solution, remarks_on(mooring)
 
 
 def _wrench(mooring):

@@ -1,12 +1,15 @@
 """`mooring static` and `mooring check`: the keys of the contract, and figures that are those of the façade."""
 
+import io
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from mooring_ros.mooring import Mooring
+from mooring_ros.mooring import Mooring, MooringError
+from mooring_ros.offline import check
 from mooring_ros.offline.arguments import pose
+from mooring_ros.offline.console import Preparing
 
 POSE = "-3,1,0.5,2,-4,10"
 WITH_PARTS = """\
@@ -171,3 +174,36 @@ def test_static_of_several_platforms_has_a_wrench_for_each_and_the_stiffness_bet
 def test_poses_and_names_that_do_not_go_together_are_bad_usage(mooring, words, said):
     outcome = mooring("static", PAIR, *words)
     assert outcome.status == 2 and said in outcome.err
+
+
+def test_static_says_what_the_scene_warns_of(scene, mooring):
+    scene.write_text(scene.read_text().replace("-300  0  -60", "-300  0  -61").replace("60  WtrDpth", "60  WtrDpth\n0.01  dtM"))
+    found = mooring("static", scene, "--json")
+    assert found.status == 0 and found.json()["lines"]
+    assert "point 2 at z = -61 m is below the bed" in found.err and f"{scene}:20: the option dtM is not used" in found.err
+
+
+def test_a_scene_without_anything_coupled_is_warned_of(scene, mooring):
+    scene.write_text(scene.read_text().replace("Coupled", "Fixed"))
+    assert "nothing is coupled" in mooring("static", scene).err
+
+
+def test_check_shows_what_is_in_a_scene_that_cannot_be_computed(scene, mooring, monkeypatch):
+    def fails(*_):
+        raise MooringError("the step to t = 1 s fails")
+
+    monkeypatch.setattr(check, "measured_cost", fails)
+    found = mooring("check", scene)
+    assert found.status == 1 and "the step to t = 1 s fails" in found.err
+    assert "2 lines, 16 segments" in found.out and "Effects" not in found.out
+    found = mooring("check", scene, "--json")
+    assert found.status == 1 and found.out == ""
+
+
+@pytest.mark.parametrize("terminal", [True, False])
+def test_a_terminal_is_told_that_work_has_begun(terminal):
+    stream = io.StringIO()
+    stream.isatty = lambda: terminal
+    with Preparing("static", stream):
+        assert stream.getvalue().startswith("static: preparing") == terminal
+    assert stream.getvalue().endswith("\x1b[K") == terminal
