@@ -1,4 +1,4 @@
-"""Many moorings at once, each with its own platform: a wind farm, a search over sea states, an ensemble."""
+"""Many moorings at once, each with its own platform, or its own platforms: a wind farm, a search over sea states, an ensemble."""
 
 import itertools
 import os
@@ -26,17 +26,18 @@ class FleetHistory:
     """Readings of many samples of many moorings; k samples, world frame. Lines of mooring m are first_line[m] to first_line[m + 1] - 1."""
 
     time: np.ndarray  # (k,) s
-    wrench: np.ndarray  # (k, moorings, 6) N, N m
+    wrench: np.ndarray  # (k, moorings, 6) N, N m; (k, moorings, platforms, 6) of platforms with names
     anchor_tension: np.ndarray  # (k, all lines) N
     fairlead_tension: np.ndarray  # (k, all lines) N
     first_line: np.ndarray  # (moorings + 1,)
 
 
 class Fleet:
-    """Many moorings, each with the motion of its own platform, advanced together on all cores.
+    """Many moorings, each with the motion of its own platform (or platforms), advanced together on all cores.
 
     members: scenes, paths of scenes, or Moorings; a scene that occurs again shares all that does not change. threads: None for one on each core that
-    the process may use. Further arguments are those of `Mooring`, for the members that are built here.
+    the process may use. Further arguments are those of `Mooring`, for the members that are built here. All members have the same number of `platforms`,
+    and an axis for them where these have names: poses (moorings, platforms, 7), twists and wrenches (moorings, platforms, 6).
 
     What comes out has the bits of single Moorings. Members (`fleet[m]`) are Moorings like others, to be read, and between two calls also to be moved by themselves.
     Raises what Mooring raises.
@@ -48,12 +49,13 @@ class Fleet:
         self.moorings = tuple(_built(list(members), options))
         if not self.moorings:
             raise ValueError("a fleet of no moorings; expected one at least")
+        self._axis = _axis_of_platforms(self.moorings)  # (platforms,), () where they have no names
         self.threads = min(int(threads or len(os.sched_getaffinity(0))), len(self.moorings))
         self.first_line = np.concatenate([[0], np.cumsum([len(mooring.line_names) for mooring in self.moorings])])
         count, lines = len(self.moorings), int(self.first_line[-1])
         self._models = [None] * count  # for which the members are packed
         self._members, self._packed = np.zeros(count, dtype=np.int64), [None] * count
-        self._shown = np.zeros((1, count, 6)), np.zeros((1, lines, 2))
+        self._shown = np.zeros((1, count, *(self._axis or (1,)), 6)), np.zeros((1, lines, 2))
         self._clocks, self._status = np.zeros(count), np.zeros((count, 2), dtype=np.int64)
         self._alone = [m for m, mooring in enumerate(self.moorings) if not _served(mooring)]
         self._together = sorted(set(range(count)) - set(self._alone))
@@ -71,9 +73,10 @@ class Fleet:
     # -- doing ------------------------------------------------------------------------------------------------------------------------
 
     def settle(self, poses, time=0.0):
-        """Static equilibrium with the platforms at rest at poses (7,), the same for all, or (moorings, 7). Equal scenes at equal poses are settled once."""
+        """Static equilibrium with the platforms at rest at poses (7,), the same for all, or (moorings, 7); of platforms with names (platforms, 7), or
+        (moorings, platforms, 7). Equal scenes at equal poses are settled once."""
         poses = numbers(poses, "poses")
-        poses = self._of_all(np.tile(poses, (len(self), 1)) if poses.shape == (7,) else poses, 7, "poses")
+        poses = self._of_all(np.stack([poses] * len(self)) if poses.shape == (*self._axis, 7) else poses, 7, "poses")
         done = {}
         for m in self._alone:
             self.moorings[m].settle(poses[m], time)
@@ -89,7 +92,7 @@ class Fleet:
                 mooring.static_result, mooring.warnings = first.static_result, first.warnings
 
     def step(self, t, poses, twists):
-        """Advance all to `t` (s), where the platforms have poses (moorings, 7) and twists (moorings, 6), as `Mooring.step` does.
+        """Advance all to `t` (s), where the platforms have poses (moorings, 7) and twists (moorings, 6), or a row for each platform, as `Mooring.step` does.
 
         ValueError for bad input leaves all as they were. A mooring whose step cannot be completed stays where it was, the others go on:
         MooringError names those that did not, and its attribute `failed` holds their numbers and messages.
@@ -99,7 +102,7 @@ class Fleet:
         self._run(np.array([t]), checked_poses(poses)[None], checked_twists(twists)[None], *self._shown)
 
     def run(self, times, poses, twists):
-        """`step` through many samples, with the same bits: times (k,), poses (k, moorings, 7), twists (k, moorings, 6). Returns a FleetHistory.
+        """`step` through many samples, with the same bits: times (k,), poses (k, moorings, 7), twists (k, moorings, 6), or a row for each platform. Returns a FleetHistory.
 
         When some cannot be completed, the others go to the end all the same; MooringError has the attributes `failed` (see `step`) and
         `history`, of the samples that all have done.
@@ -107,9 +110,10 @@ class Fleet:
         times = numbers(times, "times").reshape(-1)
         poses, twists = numbers(poses, "poses"), numbers(twists, "twists")
         k, count = times.size, len(self)
-        if poses.shape != (k, count, 7) or twists.shape != (k, count, 6):
-            raise ValueError(f"times {times.shape}, poses {poses.shape}, twists {twists.shape}; expected (k,), (k, {count}, 7), (k, {count}, 6)")
-        wrench, tension = np.zeros((k, count, 6)), np.zeros((k, int(self.first_line[-1]), 2))
+        if poses.shape != (k, count, *self._axis, 7) or twists.shape != (k, count, *self._axis, 6):
+            each = ", ".join(f"(k, {', '.join(map(str, (count, *self._axis, width)))})" for width in (7, 6))
+            raise ValueError(f"times {times.shape}, poses {poses.shape}, twists {twists.shape}; expected (k,), {each}")
+        wrench, tension = np.zeros((k, *self._shown[0].shape[1:])), np.zeros((k, int(self.first_line[-1]), 2))
         try:
             if k:
                 self._run(times, checked_poses(poses), checked_twists(twists), wrench, tension)
@@ -122,8 +126,8 @@ class Fleet:
 
     @property
     def wrenches(self):
-        """(moorings, 6) N and N m of each mooring on its platform, about its reference point, world frame."""
-        return self._collected()[0][0].copy()
+        """(moorings, 6) N and N m of each mooring on its platform, about its reference point, world frame; (moorings, platforms, 6) of platforms with names."""
+        return self._outside(self._collected()[0][0]).copy()
 
     @property
     def fairlead_tension(self):
@@ -158,7 +162,11 @@ class Fleet:
                 self._members[m] = self._packed[m].address
 
     def _of_all(self, values, width, name):
-        return shaped(values, (len(self), width), name, "a row for each mooring")
+        return shaped(values, (len(self), *self._axis, width), name, "a row for each mooring" + (", and in it one for each platform" if self._axis else ""))
+
+    def _outside(self, wrench):
+        """Wrenches (..., moorings, platforms, 6) as users see them: without the axis where the platforms have no names."""
+        return wrench if self._axis else wrench[..., 0, :]
 
     def _need_settled(self):
         waiting = [m for m in self._together if not self.moorings[m]._settled]
@@ -167,7 +175,7 @@ class Fleet:
         self._pack()
 
     def _run(self, times, poses, twists, wrench, tension):
-        """Advance all; poses (k, moorings, 7), twists (k, moorings, 6), wrench and tension as in core.fleet."""
+        """Advance all; poses and twists as in `run`, checked; wrench and tension as in core.fleet."""
         self._need_settled()
         if self._alone:
             self._clocks[:] = [mooring.time for mooring in self.moorings]
@@ -182,7 +190,8 @@ class Fleet:
             self._run_alone(m, times, poses[:, m], twists[:, m], wrench[:, m], tension[:, self.first_line[m] : self.first_line[m + 1]], failed)
         for start in range(0, len(times), SAMPLES):
             rows = slice(start, start + SAMPLES)
-            ways = [np.ascontiguousarray(values[rows].transpose(1, 0, 2))[:, :, None, None] for values in (poses, twists)]
+            ways = [np.ascontiguousarray(values[rows].swapaxes(0, 1)) for values in (poses, twists)]
+            ways = [values.reshape(*values.shape[:2], 1, -1, values.shape[-1]) for values in ways]
             self._advance(times[rows, None], *ways, wrench[rows], tension[rows])
             for m in np.flatnonzero(self._status[:, 0] != DONE).tolist():
                 if m not in failed and self._status[m, 0] != ALONE:
@@ -236,7 +245,7 @@ class Fleet:
         self._need_settled()
         wrench, tension = self._shown
         if self._alone:
-            wrench[0] = [mooring.wrench for mooring in self.moorings]
+            wrench[0] = np.reshape([mooring.wrench for mooring in self.moorings], wrench.shape[1:])
             for side, name in enumerate(("anchor_tension", "fairlead_tension")):
                 tension[0, :, side] = np.concatenate([getattr(mooring, name) for mooring in self.moorings])
         else:
@@ -244,7 +253,7 @@ class Fleet:
         return self._shown
 
     def _history(self, times, wrench, tension, done):
-        return FleetHistory(times[:done].copy(), wrench[:done], tension[:done, :, 0], tension[:done, :, 1], self.first_line.copy())
+        return FleetHistory(times[:done].copy(), self._outside(wrench[:done]), tension[:done, :, 0], tension[:done, :, 1], self.first_line.copy())
 
 
 def _served(mooring):
@@ -257,12 +266,10 @@ def _built(members, options):
     firsts = {}  # by path, or by identity of the Scene
     for m, member in enumerate(members):
         if isinstance(member, Mooring):
-            _refuse_platforms(m, member.platforms)
             if options:
                 raise ValueError(f"member {m} is a Mooring already; {', '.join(options)} can be given for scenes only")
             yield member
             continue
-        _refuse_platforms(m, options.get("platforms"))
         key = id(member) if isinstance(member, Scene) else str(member)
         if key in firsts:
             yield firsts[key].twin()
@@ -271,9 +278,14 @@ def _built(members, options):
             yield firsts[key]
 
 
-def _refuse_platforms(m, names):
-    if names is not None:
-        raise ValueError(f"member {m} has platforms {', '.join(names)}; fleets are built for moorings with one platform each")
+def _axis_of_platforms(moorings):
+    """(platforms,) of moorings, or () where these have no names. Raises ValueError when not all are alike."""
+    axes = [() if mooring.platforms is None else (len(mooring.platforms),) for mooring in moorings]
+    for m, axis in enumerate(axes):
+        if axis != axes[0]:
+            has = [f"platforms {', '.join(names)}" if names else "one platform without a name" for names in (moorings[0].platforms, moorings[m].platforms)]
+            raise ValueError(f"member 0 has {has[0]}, member {m} {has[1]}; expected the same number of platforms in all, with names or without")
+    return axes[0]
 
 
 def _some(numbers_):

@@ -7,7 +7,7 @@ import pytest
 from scenes_in_code import HERE, SCENES, same_bits, surge_heave, times_quaternion, turn
 from scipy.optimize import fsolve
 
-from mooring_ros import Fleet, Mooring, MooringError
+from mooring_ros import Mooring, MooringError
 from mooring_ros.core.poses import moved
 from mooring_ros.mooring import composed
 from mooring_ros.scene import COUPLED, FIXED, load_scene, parse_scene
@@ -249,13 +249,6 @@ def test_poses_of_another_shape_and_steps_that_cannot_be_done_leave_it_as_it_was
     with pytest.raises(MooringError):
         mooring.step(5.0, torn, np.zeros((2, 6)))
     assert same_bits(mooring.snapshot(), saved)
-
-
-def test_what_is_not_built_for_several_platforms_is_refused_by_name():
-    with pytest.raises(ValueError, match="member 0 has platforms body1, body2; fleets are built for moorings with one platform each"):
-        Fleet([pair()])
-    with pytest.raises(ValueError, match="fleets are built for moorings with one platform each"):
-        Fleet([PAIR], platforms=NAMES)
 
 
 def test_turned_platforms_give_turned_wrenches():

@@ -50,8 +50,9 @@ def read_clocks(members, clocks):
 
 @stage
 def _show_member(shown, m, row, first_line, wrench, tension):
-    for k in range(6):
-        wrench[row, m, k] = shown.wrench[0, 0, k]
+    for p in range(wrench.shape[2]):
+        for k in range(6):
+            wrench[row, m, p, k] = shown.wrench[0, p, k]
     for line in range(first_line[m], first_line[m + 1]):
         for side in range(2):
             tension[row, line, side] = shown.tension[0, line - first_line[m], side]
@@ -60,7 +61,7 @@ def _show_member(shown, m, row, first_line, wrench, tension):
 @entry
 @kernel
 def collect(members, first_line, wrench, tension):
-    """What members (addresses) show, into one row: wrench (1, members, 6) N, N m; tension (1, all lines, 2) N, of anchors and fairleads."""
+    """What members (addresses) show, into one row: wrench (1, members, platforms, 6) N, N m; tension (1, all lines, 2) N, of anchors and fairleads."""
     for m in range(members.size):
         _show_member(_member_at(members[m]).readings, m, 0, first_line, wrench, tension)
 
@@ -68,10 +69,10 @@ def collect(members, first_line, wrench, tension):
 @entry
 @kernel
 def advance_many(address, members, kinds, scratches, first, last, times, poses, twists, first_line, status, wrench, tension):
-    """Advance members first to last - 1 through samples: times (k, 1), poses (members, k, 1, 1, 7), twists (members, k, 1, 1, 6): one platform each.
+    """Advance members first to last - 1 through samples: times (k, 1), poses (members, k, 1, platforms, 7), twists (members, k, 1, platforms, 6).
 
     members (members,): addresses of Members; kinds (members,): which of `scratches`, addresses of Scratches, serves each. status (members, 2):
-    members whose first one is not DONE are left alone; it gets a status code, and when that is another one the samples done before. wrench (k, members, 6) N, N m and
+    members whose first one is not DONE are left alone; it gets a status code, and when that is another one the samples done before. wrench (k, members, platforms, 6) N, N m and
     tension (k, all lines, 2) N, of anchors and fairleads, get a row for each sample done; lines of member m begin at first_line[m].
     """
     for m in range(first, last):
