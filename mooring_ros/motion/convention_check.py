@@ -17,17 +17,19 @@ _INTERVALS = 30         # at least so many intervals with motion before a verdic
 _MOST_INTERVALS = 5000  # start-up is over by then
 _SPEED, _RATE = 0.02, 0.002     # m/s and rad/s rms at full scale: below this the platform stands still
 # Misfit: rms difference over rms of the differenced pose. A frame turned by 20 degrees gives 0.35.
-_FITS, _FAILS, _CLEARLY_BETTER = 0.2, 0.3, 1.0 / 3.0
+_FITS, FAILS, _CLEARLY_BETTER = 0.2, 0.3, 1.0 / 3.0
 
 
 @dataclass(frozen=True)
 class Verdict:
     """kind: ``undecided`` (not enough motion to tell, or nothing fits), ``ok``, ``wrong`` (clearly another convention), ``missing``
-    (the pose moves, the twist is zero). text: the same in words. fits: names of the conventions that fit."""
+    (the pose moves, the twist is zero). text: the same in words. fits: names of the conventions that fit. misfit: rms difference over rms
+    of the differenced pose in the assumed convention; None before there was enough motion."""
 
     kind: str
     text: str
     fits: tuple = ()
+    misfit: float | None = None
 
 
 class ConventionCheck:
@@ -100,12 +102,12 @@ class ConventionCheck:
                   for option, sums in self._misfit.items()}
         fits = tuple(_name(option) for option, value in misfit.items() if value < _FITS)
         if misfit[assumed] < _FITS:
-            return Verdict(OK, f"twist agrees with the differenced pose as {_name(assumed)} (misfit {misfit[assumed]:.2g})", fits)
-        if misfit[assumed] > _FAILS and min(misfit.values()) < _CLEARLY_BETTER * misfit[assumed] and fits:
+            return Verdict(OK, f"twist agrees with the differenced pose as {_name(assumed)} (misfit {misfit[assumed]:.2g})", fits, misfit[assumed])
+        if misfit[assumed] > FAILS and min(misfit.values()) < _CLEARLY_BETTER * misfit[assumed] and fits:
             return Verdict(WRONG, f"twist read as {_name(assumed)} does not move the pose (misfit {misfit[assumed]:.2g}), "
-                                  f"it looks like {' or '.join(fits)}: set twist_frame and convention to match the source", fits)
+                                  f"it looks like {' or '.join(fits)}: set twist_frame and convention to match the source", fits, misfit[assumed])
         return Verdict(UNDECIDED, f"twist agrees with the differenced pose in no convention (as {_name(assumed)}: misfit "
-                                  f"{misfit[assumed]:.2g})", fits)
+                                  f"{misfit[assumed]:.2g})", fits, misfit[assumed])
 
 
 def _name(option):

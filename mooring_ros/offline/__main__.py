@@ -49,6 +49,9 @@ def main(argv=None) -> int:
     except BrokenPipeError:
         _drop_output()  # whoever read it has gone
         return 1
+    except MemoryError as error:
+        complain(f"mooring: not enough memory: {error}")
+        return 1
     except OSError as error:
         complain(f"mooring: {error}")
         _drop_output()

@@ -115,7 +115,8 @@ def contents_text(found):
         for kind in found["line_types"]
     ]
     text = [
-        f"{found['scene']}: {_number_of(totals['lines'], 'line')}, {_number_of(totals['segments'], 'segment')}; {'; '.join(held)}; {found['environment']['bed']}",
+        f"{found['scene']}: {_number_of(totals['lines'], 'line')}, {_number_of(totals['segments'], 'segment')}; "
+        f"{'; '.join(held)}; {found['environment']['bed']}",
         f"together {g(totals['length'])} m of line, {g(totals['mass'])} kg, {g(totals['weight_in_water'] / 1e3)} kN in water",
         "",
         table(["line", "type", "ends", "length (m)", "segments", "weight in water (kN)"], lines),

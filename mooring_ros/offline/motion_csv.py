@@ -7,27 +7,30 @@ import math
 
 import numpy as np
 
+from mooring_ros.motion.frames import Adapter
 from mooring_ros.motion.gate import UNIT_TOLERANCE
 from mooring_ros.motion.velocity import twist_from_poses
 
 from .angles import quaternion_from_degrees
 from .motion_file import Motion
 from .number_table import read_table
+from .twist_check import twist_is_missing
 
 POSITION = ["t", "x", "y", "z"]
 ANGLES = ["roll", "pitch", "yaw"]
 QUATERNION = ["qx", "qy", "qz", "qw"]
 TWIST = ["vx", "vy", "vz", "wx", "wy", "wz"]
 FORMS = (POSITION + ANGLES, POSITION + QUATERNION, POSITION + QUATERNION + TWIST)
+_WORLD = Adapter(twist_frame="world")
 EXPECTED = "t,x,y,z,roll,pitch,yaw (s, m, degrees) or t,x,y,z,qx,qy,qz,qw[,vx,vy,vz,wx,wy,wz]"
 
 
 def load_csv(path):
-    """The Motion in a CSV file; columns may stand in any order. Platforms with names are in the order of the header.
+    """The Motion in a CSV file; columns may stand in any order, twists are in world axes. Platforms with names are in the order of the header.
 
     Roll, pitch and yaw are about the fixed axes: R = Rz Ry Rx. Without a twist it is differentiated from the poses. A quaternion whose
     length is off by less than 1e-3 is normalised. Times are kept as they are; stamps are times in ns, counted from the first where that is negative.
-    Raises ValueError with FILE:LINE, OSError.
+    A twist that clearly does not move the pose is refused. Raises ValueError with FILE:LINE, OSError.
     """
     table = read_table(path, EXPECTED, check_header=_check_form)
     if len(table.lines) < 2:
@@ -40,16 +43,18 @@ def load_csv(path):
         row = int(late[0]) + 1
         raise ValueError(f"{path}:{table.lines[row]}: time {times[row]:.9g} s after {times[row - 1]:.9g} s, expected it to increase")
     stamps = np.rint((times - min(times[0], 0.0)) * 1e9).astype(np.int64)
-    names = _platforms(table.names)
+    names, remarks = _platforms(table.names), []
     if not names:
-        poses, twists, source = _motion(path, table, column)
-        return Motion(str(path), times, poses, twists, stamps, source)
-    each = [_motion(path, table, {"t": times} | {one.removeprefix(f"{name}."): own for one, own in column.items() if one.startswith(f"{name}.")}) for name in names]
+        poses, twists, source = _motion(path, table, column, stamps, remarks)
+        return Motion(str(path), times, poses, twists, stamps, source, remarks=tuple(remarks))
+    each = [_motion(path, table, {"t": times} | {one.removeprefix(f"{name}."): own for one, own in column.items() if one.startswith(f"{name}.")}, stamps, remarks)
+            for name in names]
     poses, twists, sources = zip(*each)
-    return Motion(str(path), times, np.stack(poses, axis=1), np.stack(twists, axis=1), stamps, "; ".join(dict.fromkeys(sources)), platforms=names)
+    return Motion(str(path), times, np.stack(poses, axis=1), np.stack(twists, axis=1), stamps, "; ".join(dict.fromkeys(sources)), platforms=names,
+                  remarks=tuple(remarks))
 
 
-def _motion(path, table, column):
+def _motion(path, table, column, stamps, remarks):
     """(poses (n, 7), twists (n, 6), source in words) of one platform's columns, dict of name -> values (n,)."""
     times = column["t"]
     poses = np.empty((len(times), 7))
@@ -60,7 +65,10 @@ def _motion(path, table, column):
         poses[:, 3:] = np.column_stack([column[name] for name in QUATERNION])
         _normalise(path, poses, table.lines)
     if "vx" in column:
-        return poses, np.column_stack([column[name] for name in TWIST]), "pose and twist"
+        twists = np.column_stack([column[name] for name in TWIST])
+        place, axes = f"{path}:{table.header_line}", ["world"] * len(times)
+        if not twist_is_missing(place, "columns vx to wz", _WORLD, stamps, poses, twists.tolist(), axes, remarks):
+            return poses, twists, "pose and twist"
     return poses, twist_from_poses(times, poses), "pose; twist differentiated from it"
 
 

@@ -1,12 +1,15 @@
 """A platform's motion from a file: CSV, MCAP with Odometry or PoseStamped and TwistStamped, or a recording of the node itself."""
 
 import os
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from mooring_ros.recording.attached import AttachedScene
 from mooring_ros.recording.records import is_mcap
+
+
+_GAP = 10.0  # usual steps
 
 
 @dataclass(frozen=True)
@@ -37,14 +40,20 @@ class Motion:
 
 
 def load_motion(path, topic=None, platforms=()):
-    """The Motion in a file or bag folder.
+    """The Motion in a file or bag folder, with a remark where samples are missing.
 
     topic: which one to take of an MCAP file that has several (`POSE_TOPIC,TWIST_TOPIC` for a pair); it also makes a recording of
     the node be read by its input instead of its schedule. platforms: names of those that the motion is of; recordings of the node and columns of a CSV file
     say so themselves.
     Raises ValueError (FILE:LINE or FILE: what is wrong, what was expected) and OSError.
     """
-    path = os.fspath(path)
+    motion = _load(os.fspath(path), topic, platforms)
+    if motion.schedule is not None:
+        return motion
+    return replace(motion, remarks=(*motion.remarks, *_gaps(motion.times)))
+
+
+def _load(path, topic, platforms):
     if os.path.isdir(path) or path.endswith((".mcap", ".db3")) or is_mcap(path):
         from .motion_mcap import load_mcap
 
@@ -57,3 +66,14 @@ def load_motion(path, topic=None, platforms=()):
     if platforms and motion.platforms != tuple(platforms):
         raise ValueError(f"{path}: columns of {', '.join(motion.platforms) or 'one platform without a name'}, expected those of {', '.join(platforms)}, as {platforms[0]}.x")
     return motion
+
+
+def _gaps(times):
+    """A remark where samples are far apart: what is between them is not known."""
+    steps = np.diff(times)
+    usual, longest = float(np.median(steps)), int(np.argmax(steps))
+    count = int(np.sum(steps > _GAP * usual))
+    if not count:
+        return ()
+    return (f"{count} {'gap is' if count == 1 else 'gaps are'} longer than {_GAP:g} usual steps of {usual:.4g} s, the longest from {times[longest]:.9g} to "
+            f"{times[longest + 1]:.9g} s: a cubic curve stands in for what is missing",)

@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 
-from mooring_ros.motion.convention_check import MISSING, WRONG, ConventionCheck
 from mooring_ros.motion.frames import Adapter, twist_axes
 from mooring_ros.motion.gate import UNIT_TOLERANCE
 from mooring_ros.motion.velocity import twist_from_poses
@@ -14,6 +13,7 @@ from mooring_ros.recording.reader import Recording
 from .motion_file import Motion
 from .motion_of_all import own_topics, together
 from .stamps import kept, times_of
+from .twist_check import twist_is_missing
 
 ODOMETRY, POSE, TWIST = "nav_msgs/msg/Odometry", "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/TwistStamped"
 
@@ -127,7 +127,8 @@ def _measured(recording, found, pose_topic, twist_topic, remarks):
     read = decode.odometry if found[pose_topic] == ODOMETRY else decode.pose_stamped
     stamps, samples = _read(recording, pose_topic, read, remarks)
     if len(samples) < 2:
-        raise ValueError(f"{path}: topic {pose_topic}: {len(samples)} samples, expected at least 2")
+        damage = "".join(f"; {where}" for where in recording.damage)
+        raise ValueError(f"{path}: topic {pose_topic}: {len(samples)} samples, expected at least 2{damage}")
     raw = [sample.twist for sample in samples]
     axes = [None] * len(samples)
     source = pose_topic
@@ -138,7 +139,7 @@ def _measured(recording, found, pose_topic, twist_topic, remarks):
         source = f"{pose_topic} and {twist_topic}"
     poses = np.array([adapter.pose_in(_unit(path, pose_topic, row, sample.pose)) for row, sample in enumerate(samples)])
     times = times_of(stamps, adapter.time_factor)
-    if raw[0] is not None and not _twist_is_missing(path, source, adapter, stamps, poses, raw, axes, remarks):
+    if raw[0] is not None and not twist_is_missing(path, source, adapter, stamps, poses, raw, axes, remarks):
         twists = np.array([adapter.twist_in(twist, pose[3:], frame) for twist, pose, frame in zip(raw, poses, axes)])
     else:
         twists = twist_from_poses(times, poses)
@@ -212,18 +213,3 @@ def _axes(frame, samples, parameters):
         platform, default = parameters.get("platform_frame", ""), parameters.get("twist_frame", "world")
         return [twist_axes(frame, sample.frame, platform, default) for sample in samples]
     return ["child" if frame not in ("", sample.frame) else "world" for sample in samples]
-
-
-def _twist_is_missing(path, source, adapter, stamps, poses, raw, axes, remarks):
-    """Whether the twist is zero though the pose moves. Raises ValueError when it is clearly in another convention."""
-    check = ConventionCheck(adapter)
-    for stamp, pose, twist, frame in zip(stamps.tolist(), poses.tolist(), raw, axes):
-        verdict = check.add(stamp, pose, twist, frame)
-        if check.finished:
-            break
-    if verdict.kind == WRONG:
-        raise ValueError(f"{path}: {source}: the twist does not move the pose, expected it in the "
-                         f"{'platform' if (axes[0] or adapter.twist_frame) == 'child' else 'world'}'s axes; {verdict.text}")
-    if verdict.kind == MISSING:
-        remarks.append(f"{source}: the twist is zero though the pose moves")
-    return verdict.kind == MISSING

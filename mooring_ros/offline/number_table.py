@@ -19,7 +19,7 @@ class NumberTable:
 def read_table(path, expected, whitespace=False, units_row=False, check_header=None):
     """Read a table. expected: what the header should be, for messages.
 
-    Cells stand between commas; with `whitespace`, a header without a comma means cells between blanks or tabs. Blank lines and what
+    Cells stand between commas, in quotes or not; with `whitespace`, a header without a comma means cells between blanks or tabs. Blank lines and what
     follows `#` are left out. With `units_row`, a row of units such as `(s) (N)` may follow the header. check_header(place, names) may raise.
     Raises ValueError with FILE:LINE: not text, no header, a wrong count of columns, not a number, not finite; OSError.
     """
@@ -49,7 +49,8 @@ def read_table(path, expected, whitespace=False, units_row=False, check_header=N
 def _rows(path):
     """Yield (line number, text) of the lines with something on them."""
     with open(path, "rb") as file:
-        for number, raw in enumerate(file, start=1):
+        lines = (line for ended in file for line in ended.splitlines())  # also those that end in a carriage return alone
+        for number, raw in enumerate(lines, start=1):
             try:
                 text = raw.decode("utf-8-sig" if number == 1 else "utf-8")
             except UnicodeDecodeError:
@@ -62,7 +63,7 @@ def _rows(path):
 
 
 def _cells(text, separator):
-    return [cell.strip() for cell in text.split(separator)]
+    return [cell.strip().strip('"') for cell in text.split(separator)]
 
 
 def _check_names(place, names, expected):

@@ -164,6 +164,11 @@ def _accuracy_text(found):
     if found["why"]:
         return f"accuracy: no estimate: {found['why']}"
     return (
-        f"accuracy: tensions within {found['mean']:.2g} % in the mean, {found['dynamic']:.2g} % dynamic (rms over standard deviation), {found['peak']:.2g} % at the "
-        f"peak, worst {found['line']}, estimated from {found['begin']:.6g} to {found['end']:.6g} s by comparing {found['compared']}"
+        f"accuracy: tensions within {_two_digits(found['mean'])} % in the mean, {_two_digits(found['dynamic'])} % dynamic (rms over standard deviation), "
+        f"{_two_digits(found['peak'])} % at the peak, worst {found['line']}, estimated from {found['begin']:.6g} to {found['end']:.6g} s by comparing {found['compared']}"
     )
+
+
+def _two_digits(value):
+    """A number with two digits, or all before its point: never 1e+02."""
+    return f"{value:.2g}" if abs(value) < 99.5 else f"{value:.0f}"

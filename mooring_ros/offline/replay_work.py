@@ -20,6 +20,8 @@ from .replay_output import Answer, CsvOutput, McapOutput, ODOMETRY, PLATFORM_FRA
 from .replay_run import run_motion, run_schedule
 from .resample import resample
 
+_MOST_SAMPLES = 1e7  # of --rate: more would fill the memory
+
 WINCHES = "/unstretched_lengths"
 INPUT_TYPES = (ODOMETRY, "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/TwistStamped")
 
@@ -133,6 +135,9 @@ def _samples(args, motion):
     """times, poses, twists, stamps of the steps."""
     if args.rate is None:
         return motion.times, motion.poses, motion.twists, motion.stamps
+    wanted = (motion.times[-1] - motion.times[0]) * args.rate
+    if wanted > _MOST_SAMPLES:
+        raise UsageError(f"--rate {args.rate:g}: {wanted:.3g} samples of this motion, expected at most {_MOST_SAMPLES:g}")
     times, poses, twists = resample(motion.times, motion.poses, motion.twists, args.rate)
     # Between recorded stamps, so that a clock at another scale keeps its pace.
     whole = np.searchsorted(motion.times, times, side="right").clip(1, len(motion.times) - 1) - 1
