@@ -104,7 +104,7 @@ def test_motions_of_all_are_carried_on_one_by_one(two):
     two.admit(given(0, 10, x=1.0, v=2.0))
     motion = two.admit(given(1, 10, v=-1.0))
     poses, twists = motion.ahead(0.5)
-    assert [pose[0] for pose in poses] == [2.0, -0.5] and [twist[0] for twist in twists] == [2.0, -1.0] and motion.first == (motion.pose[0], motion.twist[0])
+    assert [pose[0] for pose in poses] == [2.0, -0.5] and [twist[0] for twist in twists] == [2.0, -1.0] and motion.each == tuple(zip(motion.pose, motion.twist))
 
 
 def test_a_twist_in_the_wrong_axes_is_found_out_and_told_with_its_platform():
