@@ -33,6 +33,11 @@ def add_topic_arguments(parser):
     parser.add_argument("--platforms", metavar="NAME,NAME", help="coupled bodies that move by themselves, where MOTION does not say so itself")
 
 
+def add_platforms_argument(parser):
+    """--platforms, for what needs no motion."""
+    parser.add_argument("--platforms", metavar="NAME,NAME", help="coupled bodies that are platforms of their own (default: one, with all that is coupled)")
+
+
 def names_of(text):
     """Names (a tuple) of a --platforms; none for None."""
     return () if text is None else tuple(text.split(","))

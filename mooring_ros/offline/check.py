@@ -2,7 +2,7 @@
 
 import math
 
-from .arguments import load_mooring, remarks_on
+from .arguments import add_platforms_argument, load_mooring, names_of, remarks_on
 from .console import ComputationFailed, Preparing, print_json
 from .contents import contents, contents_text, g
 from .effects import effects, with_shares
@@ -12,12 +12,13 @@ from .shares import cost_shares
 
 def add_arguments(parser):
     parser.add_argument("scene", metavar="SCENE", help="MoorDyn v2 input file, or a recording that holds one")
+    add_platforms_argument(parser)
     parser.add_argument("--json", action="store_true", help="one JSON object on standard output, nothing else")
 
 
 def run(args):
     with Preparing("check"):
-        mooring = load_mooring(args.scene)
+        mooring = load_mooring(args.scene, platforms=names_of(args.platforms) or None)
     found = {"scene": str(args.scene), **contents(mooring.scene)}
     try:
         with Preparing("check"):
@@ -39,13 +40,14 @@ def measured(path, mooring):
 
     scene = mooring.scene
     try:
-        mooring.settle([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
+        mooring.settle(mooring.pose_in_file)
         switched, passes = with_shares(effects(scene, mooring), cost_shares(mooring))
         limit = mooring.step_limit
         cost = measured_cost(mooring)
     except MooringError as error:
         raise ComputationFailed(f"{path}: {error}") from error
     return {
+        "platforms": list(mooring.platforms or ()),
         "effects": switched,
         "cost_shares": passes,
         "solver": {"name": mooring.solver, "why": mooring.choice},
@@ -66,6 +68,7 @@ def _text(found):
     width = max(len(name) for name in [row[1] for row in switched] + [what for what, _ in beside])
     text = [
         *contents_text(found),
+        *(["", f"Platforms of their own: {', '.join(found['platforms'])}"] if found["platforms"] else []),
         "",
         "Effects, with their share of the CPU time of steps, measured just now on this machine",
         *(f"  {state:3}  {name.ljust(width)}  {share:>6}  {why}" for state, name, share, why in switched),

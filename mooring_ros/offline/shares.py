@@ -5,7 +5,6 @@ did not have it; the differences add up to the whole. What every mooring has (te
 what is left of the evaluation is shared in these proportions. The cost of a whole step, and how many evaluations it takes, come from a run.
 """
 
-import math
 import time
 from functools import partial
 
@@ -16,8 +15,10 @@ from mooring_ros.core.friction import NO_FRICTION
 from mooring_ros.core.model import State
 from mooring_ros.core.waves import refresh
 
+from .mild import MildMotion
+
 ROUNDS, ROUND = 5, 4e-3  # how often each is timed, and for about how long (s of CPU time)
-RUN, SAMPLE = 0.15, 0.02  # s of CPU time that the run takes at least; s between two of its samples
+RUN = 0.15  # s of CPU time that the run takes at least
 REST = "time integration, guard and readings"
 # passes that every mooring has, with the effects that share them
 COMMON = {
@@ -54,24 +55,18 @@ def cost_shares(mooring):
 
 def _of_a_run(mooring):
     """(s of CPU time, evaluations, steps) for one simulated second of a mild surge."""
-    start, origin, done, evaluations, steps, taken = mooring.time, np.array(mooring.pose), 0, 0, 0, 0.0
-    depth = mooring.scene.environment.depth
-    sample, amplitude = SAMPLE * min(1.0, math.sqrt(depth / 200.0)), depth / 200.0
-    rate = 2.0 * math.pi / (14.0 * math.sqrt(depth / 200.0))
+    motion, done, evaluations, steps, taken = MildMotion(mooring), 0, 0, 0, 0.0
     while taken < RUN and done < 20000:
         count = 10 if done == 0 else 50
-        times = sample * np.arange(done + 1, done + count + 1)
-        poses, twists = np.tile(origin, (count, 1)), np.zeros((count, 6))
-        poses[:, 0] += amplitude * (1.0 - np.cos(rate * times))
-        twists[:, 0] = amplitude * rate * np.sin(rate * times)
+        samples = motion.next(count)
         before = time.process_time()
-        mooring.run(start + times, poses, twists)
+        mooring.run(*samples)
         if done:  # the first ones compile, and fill the caches
             taken += time.process_time() - before
             evaluations += mooring.last_step["evaluations"] * count
             steps += mooring.last_step["steps"] * count
         done += count
-    simulated = (done - 10) * sample
+    simulated = (done - 10) * motion.sample
     return taken / simulated, evaluations / simulated, steps / simulated
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from .angles import roll_pitch_yaw
-from .arguments import load_mooring, names_of, pose, remarks_on
+from .arguments import add_platforms_argument, load_mooring, names_of, pose, remarks_on
 from .console import ComputationFailed, Preparing, UsageError, complain, print_json, table
 
 _AXES = ("x", "y", "z", "rx", "ry", "rz")
@@ -20,7 +20,7 @@ def add_arguments(parser):
         help="platform pose in m and degrees; roll, pitch, yaw about the fixed x, y, z axes in that order (default: all zero); NAME=… with --platforms, "
         "for each that is not where the file has put it",
     )
-    parser.add_argument("--platforms", metavar="NAME,NAME", help="coupled bodies that are platforms of their own (default: one, with all that is coupled)")
+    add_platforms_argument(parser)
     parser.add_argument("--json", action="store_true", help="one JSON object on standard output, nothing else")
 
 

@@ -10,6 +10,7 @@ from mooring_ros.mooring import Mooring, MooringError
 from mooring_ros.offline import check
 from mooring_ros.offline.arguments import pose
 from mooring_ros.offline.console import Preparing
+from mooring_ros.offline.mild import MildMotion
 
 POSE = "-3,1,0.5,2,-4,10"
 WITH_PARTS = """\
@@ -161,6 +162,30 @@ def test_static_of_several_platforms_has_a_wrench_for_each_and_the_stiffness_bet
     assert [row["name"] for row in found["platforms"]] == ["body1", "body2"] and found["platforms"][0]["position"] == [-500.0, 0.0, 0.0]
     text = mooring("static", PAIR, "--platforms", "body1,body2").out
     assert "On each platform, about its body's origin" in text and "body2.rz" in text
+
+
+def test_check_of_several_platforms_names_them_and_times_all_in_motion(mooring):
+    found = mooring("check", PAIR, "--platforms", "body1,body2", "--json").json()
+    assert found["platforms"] == ["body1", "body2"] and found["cost"]["real_time_factor"] > 0.0
+    assert found["step_limit"] == mooring("check", PAIR, "--json").json()["step_limit"]
+    assert sum(row["share"] for row in found["cost_shares"]) == pytest.approx(1.0)
+    assert "Platforms of their own: body1, body2" in mooring("check", PAIR, "--platforms", "body1,body2").out
+    refused = mooring("check", PAIR, "--platforms", "body1")
+    assert refused.status == 2 and "body2: coupled, but to none of body1" in refused.err
+
+
+def test_the_motion_that_a_mooring_is_timed_with_begins_at_rest_and_takes_all_platforms_along():
+    moored = Mooring(PAIR, platforms=["body1", "body2"])
+    home = moored.pose_in_file
+    moored.settle(home, time=3.0)
+    motion = MildMotion(moored, heave=0.5)
+    (times, poses, twists), (later, _, _) = motion.next(300), motion.next(2)
+    assert times[0] == 3.0 + motion.sample and later[0] == pytest.approx(times[-1] + motion.sample)
+    moved = poses - home
+    assert (moved[:, 0] == moved[:, 1]).all() and np.ptp(moved[:, 0, 0]) > 1.0 and not moved[:, :, [1, *range(3, 7)]].any()
+    np.testing.assert_allclose(moved[:, :, 2], 0.5 * moved[:, :, 0], atol=1e-12)
+    np.testing.assert_allclose(np.gradient(poses[:, 0, 0], times)[1:-1], twists[1:-1, 0, 0], atol=1e-4)
+    assert np.abs(twists[0]).max() < 0.01 and np.abs(moved[0]).max() < 1e-3
 
 
 @pytest.mark.parametrize(
