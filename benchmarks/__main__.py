@@ -37,6 +37,7 @@ BENCHMARKS = {
     "platforms": "two floaters that share a chain, each with its own motion: tensions and forces beside MoorDyn's, and the cost (twenty seconds)",
     "node_latency": "the ROS 2 node: input stamp to wrench, against an empty echo node",
     "late_spring": "a spring that answers late: the damping that is lost, and what prediction gives back (ten seconds)",
+    "late_platforms": "two floaters on shared moorings that answer late: the damping that each mode loses, and what prediction gives back (twenty seconds)",
     "delay": "how far the force of a running node lags the motion, with prediction and without (two minutes)",
     "motion_capture": "noise, bunched stamps and lost frames of a camera system: what they make of velocities and of the force (a minute)",
     "timing": "the node at 200 and 500 Hz, idle and loaded, with and without SCHED_FIFO, beside an empty loop (25 minutes; --steps 1000000: 20 hours)",

@@ -13,6 +13,7 @@ from nav_msgs.msg import Odometry
 from scipy.spatial.transform import Rotation
 from std_msgs.msg import Float64MultiArray
 
+from benchmarks.late_platforms import LatePair
 from mooring_ros.mooring import Mooring
 from mooring_ros.motion import Adapter, Sample
 from mooring_ros.motion.ensemble import Ensemble, OfPlatform
@@ -80,6 +81,13 @@ def test_prediction_takes_nearly_all_of_the_lateness_from_the_force_on_every_pla
     moved = [(0, 0), (1, 1), (0, 3), (1, 3)]     # surge of the first, sway of the second, their pitch moments
     for place in moved:
         assert predicted[place] < 0.01 * without[place], place
+
+
+def test_a_delay_takes_half_of_its_angle_from_the_damping_of_every_mode_of_two_floaters_and_prediction_gives_it_back():
+    pair = LatePair()
+    for mode, omega in enumerate(pair.omegas):
+        lost, left = (-pair.damping(mode, LATE, compensate) for compensate in ("off", "given"))
+        assert lost == pytest.approx(0.5 * omega * LATE, rel=0.03) and abs(left) < 0.1 * lost
 
 
 def test_a_prediction_keeps_the_stamps_and_the_core_stands_ahead_of_them():
