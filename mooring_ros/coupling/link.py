@@ -19,6 +19,7 @@ WORLD, PLATFORM = "world", "platform"
 _POLL = 0.1  # s, how long a wait may go on before it looks whether to stop
 _AT_ONCE = 20  # messages that are taken without waiting
 _LONGEST_UNCONFIGURED = 3.0  # s; while it configures, the node does not say its state
+_LONGEST_CONFIGURING = 600.0  # s: the first start on a machine compiles the core
 
 
 class LinkError(Exception):
@@ -73,12 +74,16 @@ class MooringLink:
         self._problem = ""
 
     def wait_for_mooring(self, timeout):
-        """Wait until the node listens and speaks. Raises LinkError after timeout (s), or when it stays unconfigured; Stopped."""
-        end = time.monotonic() + timeout
+        """Wait until the node listens and speaks. Raises LinkError after timeout (s), or when it stays unconfigured; Stopped.
+
+        One that is there and configures is waited for beyond the timeout, for up to ten minutes.
+        """
+        begin = time.monotonic()
         state = _NodeState(self._node, self._mooring)
         missing = f"nobody answers on {self.topics}"
         while not all(channel.matched for channel in self._channels):
-            self._check(end, missing, timeout)
+            longest = max(timeout, _LONGEST_CONFIGURING) if state.busy else timeout
+            self._check(begin + longest, missing, longest)
             self._executor.spin_once(timeout_sec=_POLL)
             if state.unconfigured_for() > _LONGEST_UNCONFIGURED:
                 raise LinkError("the mooring node is there, but unconfigured, expected active; its log says why")
@@ -224,6 +229,11 @@ class _NodeState:
     def asked(self):
         """Whether an answer is still to come."""
         return self._question is not None and not self._question.done()
+
+    @property
+    def busy(self):
+        """Whether the node is there and does not answer, as while it configures."""
+        return self.asked and self._client.service_is_ready()
 
     def unconfigured_for(self):
         """For how long (s) every answer has been `unconfigured`."""

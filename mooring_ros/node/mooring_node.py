@@ -156,6 +156,7 @@ class MooringNode(LifecycleNode):
         for name in parameters.unknown(self):
             self.get_logger().warning(f"there is no parameter {name}: it is not used")
         settings = {name: values[name] for name in ("fidelity", "solver", "refine")} | {name: values[name] or None for name in ("dt", "segments", "platforms")}
+        self.get_logger().info(f"loading {values['scene']}: a core that is new on this machine is compiled first, which takes a minute or more")
         begin = time.monotonic()
         self._warm_up(Mooring(scene, **settings))
         self.get_logger().info(f"compiled in {time.monotonic() - begin:.1f} s")

@@ -4,8 +4,11 @@ import time
 
 import numpy as np
 import pytest
+import rclpy
+from lifecycle_msgs.srv import GetState
 
 from mooring_ros.coupling import Coupling, LinkError
+from mooring_ros.coupling.link import Stopped
 
 HOME = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]
 REST = np.zeros(6)
@@ -59,6 +62,20 @@ def test_nobody_there_ends_the_free_run_after_the_time_out(domain):
     with Coupling(step=0.01, timeout=0.3) as mooring, pytest.raises(LinkError, match="platform/odom"):
         while True:
             mooring.exchange(HOME, REST)
+
+
+def test_a_node_that_is_there_and_configures_is_waited_for_beyond_the_time_out(domain):
+    context = rclpy.Context()
+    context.init()
+    node = rclpy.create_node("mooring", context=context)
+    node.create_service(GetState, "~/get_state", lambda request, answer: answer)  # not spun: so is a node that compiles
+    end = time.monotonic() + 4.0
+    with Coupling(step=0.01, timeout=2.0, stop=lambda: time.monotonic() > end) as mooring, pytest.raises(Stopped):
+        mooring.begin(HOME)
+    node.destroy_node()
+    with Coupling(step=0.01, timeout=1.0) as mooring, pytest.raises(LinkError, match="nobody answers on .*platform/odom .*, waited 1 s"):
+        mooring.begin(HOME)
+    context.try_shutdown()
 
 
 def test_a_wrench_in_the_platforms_axes_is_turned_into_the_worlds(spring):
