@@ -4,6 +4,7 @@ Platforms may send in any order, and some ahead of others: samples wait for thos
 waits is given up when another platform has none of its stamp, but a newer one; it is counted as unpaired, with the name of who was missing.
 """
 from collections import Counter, deque
+from dataclasses import replace
 from typing import NamedTuple
 
 from mooring_ros.motion.convention_check import MISSING, OK, UNDECIDED, WRONG, ConventionCheck
@@ -203,7 +204,8 @@ class Checks:
 
     @property
     def moved(self):
-        return any(check.moved for check in self._each)
+        """Whether the platform that the verdict is of has moved enough to tell."""
+        return self._worst()[1].moved
 
     @property
     def finished(self):
@@ -212,10 +214,13 @@ class Checks:
     @property
     def verdict(self):
         """The worst of all platforms, with its name."""
-        for kind in (WRONG, MISSING, UNDECIDED, OK):
-            for name, check in zip(self._ensemble.names, self._each):
-                if check.verdict.kind == kind:
-                    return check.verdict if kind == OK else check.verdict.__class__(kind, f"{name}: {check.verdict.text}", check.verdict.fits)
+        name, check = self._worst()
+        return check.verdict if check.verdict.kind == OK else replace(check.verdict, text=f"{name}: {check.verdict.text}")
+
+    def _worst(self):
+        """(name, check) of the platform with the worst verdict; one that lies still has none of its own, and stands behind those that nothing fits."""
+        kinds = (WRONG, MISSING, UNDECIDED, OK)
+        return min(zip(self._ensemble.names, self._each), key=lambda pair: (kinds.index(pair[1].verdict.kind), not pair[1].moved))
 
     def look_at(self, motion, _):
         """Take the last Motion of the ensemble, and the samples that it is from; returns the verdict."""

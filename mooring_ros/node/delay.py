@@ -76,7 +76,7 @@ class Delay:
     def status(self, frequency):
         """For diagnostics: whether a person should look, words, name -> value; frequency: rad/s, or None."""
         numbers = self.report(frequency)
-        values = {name: f"{number:.6g}" for name, number in zip(FIELDS, numbers)}
+        values = {name: f"{number + 0.0:.6g}" for name, number in zip(FIELDS, numbers)}
         values |= {"compensate": self.mode, "counted from": "the stamp" if self.by_stamps else "the arrival"}
         words = f"{1e3 * self.mean:.2f} ms" + (f", {1e3 * self.lead:.2f} ms predicted" if self.lead else "")
         if frequency:

@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 
 from mooring_ros.motion import Adapter, Limits, Sample
-from mooring_ros.motion.convention_check import WRONG
+from mooring_ros.motion.convention_check import UNDECIDED, WRONG
 from mooring_ros.motion.ensemble import WAITING, Checks, Ensemble, OfPlatform
 from mooring_ros.motion.gate import JUMP, REORDERED, REPEATED, UNPAIRED
 from mooring_ros.node.platforms import AllResets, name_list, refuse
@@ -117,6 +117,18 @@ def test_a_twist_in_the_wrong_axes_is_found_out_and_told_with_its_platform():
         check.look_at(motion, None)
     assert check.verdict.kind == WRONG and check.verdict.text.startswith("body2: ") and check.finished and check.moved
     assert check.anew().verdict.kind != WRONG
+
+
+def test_a_platform_that_lies_still_is_no_reason_to_look_at_the_twists():
+    """body1 moves as its twist says, body2 rests: nothing to tell. Then body1's twist fits nothing, and is what is told."""
+    for factor, undecided in ((1.0, False), (-1.0, True)):
+        two = Ensemble(NAMES[:2], Adapter())
+        check = Checks(two)
+        for k in range(1, 61):
+            two.admit(given(0, 50 * k, x=0.05 * k, v=factor))
+            check.look_at(two.admit(given(1, 50 * k)), None)
+        assert check.verdict.kind == UNDECIDED and check.moved == undecided
+        assert check.verdict.text.startswith("body1: " if undecided else "body2: ")
 
 
 def test_names_and_parameters_that_do_not_go_together_are_refused():
