@@ -14,7 +14,7 @@ class Done:
     """What was just done to the mooring, which now stands at its answer (only settles and steps have one).
 
     stamp: ns, of the source; time: s, for tables, by the source's clock; record: as in the schedule (15 floats); pose (7,), twist (6,): of the
-    platform by the source, world axes, None for what is done to a line.
+    platform by the source, world axes, a row for each platform with a name; None for what is done to a line.
     """
 
     kind: int  # of schedule.KINDS
