@@ -239,7 +239,7 @@ class MixedMooring(Mooring):
         for mooring in self._moorings:
             if any(rod.name == rod_name for rod in mooring.scene.rods):
                 return mooring.rod_positions(rod_name)
-        raise ValueError(f"there is no rod {rod_name!r}; expected one of {', '.join(rod.name for rod in self.scene.rods)}")
+        raise ValueError(f"there is no rod {rod_name!r}; expected one of {', '.join(rod.name for rod in self.scene.rods) or 'none: the scene has no rods'}")
 
     @property
     def body_poses(self):

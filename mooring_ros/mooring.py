@@ -383,7 +383,7 @@ class Mooring:
         """(2, 3) m: where ends A and B of a rod are."""
         self._need_settled()
         if rod_name not in self._rods:
-            raise ValueError(f"there is no rod {rod_name!r}; expected one of {', '.join(self._rods)}")
+            raise ValueError(f"there is no rod {rod_name!r}; expected one of {', '.join(self._rods) or 'none: the scene has no rods'}")
         return self._state.position[:, self._rods[rod_name]].T.copy()
 
     @property

@@ -197,6 +197,15 @@ def test_nothing_runs_before_it_is_settled():
         mooring.stiffness()
 
 
+@pytest.mark.parametrize("fidelity", ["dynamic", "line1=linear,dynamic"])
+def test_a_rod_of_a_scene_without_rods_is_a_value_error_that_says_so(fidelity):
+    mooring = Mooring(OC4, fidelity=fidelity)
+    mooring.settle([0, 0, 0, 0, 0, 0, 1])
+    with pytest.raises(ValueError, match="no rod 'rod1'; expected one of none: the scene has no rods"):
+        mooring.rod_positions("rod1")
+
+
+
 @pytest.mark.parametrize("reader", ["node_positions", "node_tension", "node_curvature", "release"])
 def test_unknown_lines_are_value_errors(reader):
     with pytest.raises(ValueError, match="line1"):

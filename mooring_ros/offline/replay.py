@@ -35,9 +35,9 @@ def add_arguments(parser):
     parser.add_argument(
         "motion",
         metavar="MOTION",
-        help="CSV with a header t,x,y,z,roll,pitch,yaw (s, m, degrees) or t,x,y,z,qx,qy,qz,qw[,vx,vy,vz,wx,wy,wz]; MCAP with Odometry, or "
-        "PoseStamped and TwistStamped; a recording of the node replays bit for bit, with its own settings. Of several platforms each has these columns "
-        "with its name before them (t,body1.x,…,body2.x,…), or these topics with its name in them",
+        help="CSV with a header t,x,y,z,roll,pitch,yaw (s, m, degrees) or t,x,y,z,qx,qy,qz,qw[,vx,vy,vz,wx,wy,wz] (twist in world axes); MCAP with "
+        "Odometry, or PoseStamped and TwistStamped; a recording of the node replays bit for bit, with its own settings. Of several platforms each has "
+        "these columns with its name before them (t,body1.x,…,body2.x,…), or these topics with its name in them",
     )
     parser.add_argument("-o", "--output", metavar="OUT.mcap", required=True, help="recording to write")
     parser.add_argument("--csv", metavar="OUT.csv", help="tensions and wrench as a table as well")
