@@ -40,7 +40,23 @@ def build_environment(options: Options, files: Files) -> tuple[Environment, list
     plain = {field: options.take(name) for name, field in _PLAIN.items() if options.get(name) is not None}
     current = tuple(options.take(f"Current{axis}", 0.0) for axis in "XYZ")
     waves, profile = _water(options, files, warnings)
-    return Environment(**bed, **plain, current=current, current_profile=profile, friction=friction, waves=waves), warnings
+    environment = Environment(**bed, **plain, current=current, current_profile=profile, friction=friction, waves=waves)
+    return environment, [*warnings, *_breaking(options, environment)]
+
+
+def _breaking(options: Options, environment: Environment) -> list[str]:
+    """A warning for waves that no sea has: steeper than 1 to 7 (Michell's limit), or higher than 0.78 of the depth (McCowan's)."""
+    waves, depth = environment.waves, environment.depth
+    if waves is None or waves.kind not in (REGULAR, JONSWAP):
+        return []
+    highest = min(environment.gravity * waves.period**2 / (14.0 * math.pi), 0.78 * depth)
+    if waves.height <= highest:
+        return []
+    row = options.row("WaveHeight")
+    return [
+        f"{row.file}:{row.line}: waves of {waves.height:g} m and {waves.period:g} s in {depth:g} m of water would break, about {highest:.2g} m is the most; "
+        "linear theory is used beyond it"
+    ]
 
 
 def _bed(options: Options, files: Files, warnings: list[str]) -> dict[str, object]:

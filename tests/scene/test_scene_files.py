@@ -221,6 +221,14 @@ def test_moordyn_c_wave_components_are_the_same_sea():
         assert message in error_of(with_options("7 WaveKin"), {"wave_frequencies.txt": bad}).message
 
 
+@pytest.mark.parametrize("height, period, breaks", [(2, 8, False), (3.5, 4, False), (3.7, 4, True), (2, 0.8, True), (77, 40, False), (79, 40, True)])
+@pytest.mark.parametrize("model", ["regular", "jonswap"])
+def test_waves_that_no_sea_has_are_warned_of(model, height, period, breaks):
+    """Steeper than 1 to 7: 3.57 m at 4 s; higher than 0.78 of the depth of 100 m."""
+    found = scene_of(with_options(f"{model} WaveModel", f"{height} WaveHeight", f"{period} WavePeriod"), {}).warnings
+    assert sum(f"waves of {height:g} m and {period:g} s in 100 m of water would break" in warning for warning in found) == breaks
+
+
 def test_own_seas_are_read():
     options = ("Regular WaveModel", "2 WaveHeight", "8 WavePeriod", "90 WavePhase", "45 WaveDirection", "5 WaveRamp")
     regular = scene_of(with_options(*options), {}).environment.waves
