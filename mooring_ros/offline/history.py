@@ -11,6 +11,8 @@ from .number_table import read_table
 
 EXPECTED = "time,NAME,NAME,…"
 TIME_NAMES = ("time", "t")
+_FORCES = {"N": 1.0, "kN": 1e3, "MN": 1e6}
+_OTHERS = ("lbf", "klbf", "kip", "kips", "kgf", "tf", "t", "te", "mt")  # forces that are not taken
 
 
 @dataclass(frozen=True)
@@ -30,7 +32,8 @@ class History:
 def load_history(path):
     """The History in a CSV file, a MoorDyn output table, or an MCAP recording of the node or of a replay.
 
-    A table has a header whose first name is `time` (or `Time`, `t`), commas or blanks between its cells, and may have a row of units in parentheses.
+    A table has a header whose first name is `time` (or `Time`, `t`), commas or blanks between its cells, and may have a row of units in parentheses: kN and
+    MN, also times m, are turned into N; other units of force and of time are refused.
     Raises ValueError (FILE:LINE or FILE: what is wrong, what was expected) and OSError.
     """
     path = os.fspath(path)
@@ -57,7 +60,8 @@ def _load_table(path):
         remarks = (f"{path}: {int((~last_of_each).sum())} rows whose time comes again in the next row were left out",)
     if last_of_each.sum() < 2:
         raise ValueError(f"{path}:{table.lines[-1]}: all samples at {times[0]:.9g} s, expected at least 2 times")
-    values = table.values[last_of_each]
+    factors, more = _factors(path, table)
+    values, remarks = table.values[last_of_each] * factors, (*remarks, *more)
     series = {name: values[:, column] for column, name in enumerate(table.names) if column}
     return History(str(path), values[:, 0], series, remarks)
 
@@ -67,3 +71,19 @@ def _check_header(place, names):
         raise ValueError(f"{place}: the first column is {names[0]!r}, expected {EXPECTED}")
     if len(names) < 2:
         raise ValueError(f"{place}: no column beside the time, expected {EXPECTED}")
+
+
+def _factors(path, table):
+    """(factors (columns,) that make SI units of the values, remarks)."""
+    factors, taken = np.ones(len(table.names)), []
+    if table.units is None:
+        return factors, ()
+    units, line = table.units
+    for column, (name, unit) in enumerate(zip(table.names, units)):
+        force = next((known for known in _FORCES if unit in (known, *(f"{known}{sign}m" for sign in ("", " ", "-", "*", "·")))), None)
+        if column == 0 and unit.lower() not in ("s", "sec", "") or unit.lower() in _OTHERS:
+            raise ValueError(f"{path}:{line}: column {name!r} is in ({unit}), expected {'(s)' if column == 0 else '(N), (kN) or (MN)'}")
+        if force and _FORCES[force] != 1.0:
+            factors[column] = _FORCES[force]
+            taken.append(force)
+    return factors, (f"{path}:{line}: {' and '.join(dict.fromkeys(taken))} were turned into N",) if taken else ()

@@ -8,12 +8,16 @@ import numpy as np
 
 @dataclass(frozen=True)
 class NumberTable:
-    """names: of the columns, as in the header; values (rows, columns); lines: the line of each row in the file; header_line."""
+    """names: of the columns, as in the header; values (rows, columns); lines: the line of each row in the file; header_line.
+
+    units: of the columns, without their parentheses, and the line they stand in; None where there is no such row.
+    """
 
     names: list
     values: np.ndarray
     lines: list
     header_line: int
+    units: tuple | None = None
 
 
 def read_table(path, expected, whitespace=False, units_row=False, check_header=None):
@@ -23,7 +27,7 @@ def read_table(path, expected, whitespace=False, units_row=False, check_header=N
     follows `#` are left out. With `units_row`, a row of units such as `(s) (N)` may follow the header. check_header(place, names) may raise.
     Raises ValueError with FILE:LINE: not text, no header, a wrong count of columns, not a number, not finite; OSError.
     """
-    names, rows, lines, header_line = None, [], [], 0
+    names, rows, lines, header_line, units = None, [], [], 0, None
     separator = ","
     for number, cells_text in _rows(path):
         place = f"{path}:{number}"
@@ -36,6 +40,7 @@ def read_table(path, expected, whitespace=False, units_row=False, check_header=N
             continue
         cells = _cells(cells_text, separator)
         if units_row and not rows and number_of(cells[0]) is None and _is_units(cells):
+            units = [cell[1:-1].strip() for cell in cells], number
             continue
         if len(cells) != len(names):
             raise ValueError(f"{place}: {len(cells)} columns, expected {len(names)} as in the header: {','.join(names)}")
@@ -43,7 +48,7 @@ def read_table(path, expected, whitespace=False, units_row=False, check_header=N
         lines.append(number)
     if names is None:
         raise ValueError(f"{path}:1: the file is empty, expected a header {expected}")
-    return NumberTable(names, np.array(rows, dtype=float).reshape(len(rows), len(names)), lines, header_line)
+    return NumberTable(names, np.array(rows, dtype=float).reshape(len(rows), len(names)), lines, header_line, units)
 
 
 def _rows(path):

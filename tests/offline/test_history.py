@@ -140,3 +140,22 @@ def test_recordings_of_different_scales_are_not_compared(tmp_path, mooring):
     outcome = mooring("validate", model, full)
     assert outcome.status == 2 and "expected two recordings at the same scale" in outcome.err
     assert mooring("validate", model, model).status == 0
+
+
+@pytest.mark.parametrize("unit, factor", [("N", 1.0), ("kN", 1e3), ("MN", 1e6), ("kN-m", 1e3), ("kN m", 1e3), ("m", 1.0), ("-", 1.0)])
+def test_forces_in_other_units_become_newtons(tmp_path, unit, factor):
+    path = tmp_path / "h.csv"
+    path.write_text(f"time,line1.fairlead_tension,other\n(s),({unit}),(N)\n0,1.5,2\n1,2.5,3\n")
+    history = load_history(path)
+    assert history.series["line1.fairlead_tension"].tolist() == [1.5 * factor, 2.5 * factor]
+    assert history.series["other"].tolist() == [2.0, 3.0] and history.times.tolist() == [0.0, 1.0]
+    assert ("turned into N" in "".join(history.remarks)) == (factor != 1.0)
+
+
+@pytest.mark.parametrize("units, words", [("(ms),(N)", "column 'time' is in (ms), expected (s)"), ("(s),(kip)", "column 'a' is in (kip), expected (N), (kN) or (MN)")])
+def test_units_that_are_not_known_are_refused(tmp_path, units, words):
+    path = tmp_path / "h.csv"
+    path.write_text(f"time,a\n{units}\n0,1\n1,2\n")
+    with pytest.raises(ValueError) as raised:
+        load_history(path)
+    assert str(raised.value) == f"{path}:2: {words}"
