@@ -4,6 +4,7 @@ import threading
 import time
 
 from .judge import Wrong
+from .peer import wait_until_heard
 from .registry import fault
 from .rig import BEGIN, STEP
 
@@ -180,9 +181,7 @@ class Heart:
     def __enter__(self):
         self.start()
         self._thread.start()
-        while not self._publisher.subscriber_count:
-            time.sleep(0.01)
-        time.sleep(0.4)
+        wait_until_heard(self._publisher, pause=0.4)
         return self
 
     def __exit__(self, *_):
@@ -235,12 +234,7 @@ def sim_time_switched(rig):
     rig.expect("input", "ahead: stamp is", allowed=0.4)
     rig.services.set("use_sim_time", False)
     rig.judged()
-    for number in range(1000):
-        rig.stamp = time.time_ns()
-        rig.send()
-        if number > 20 and not rig.judge.blends:
-            break
-        time.sleep(0.005)
+    rig.running_by_the_wall_clock()
 
 
 def _wall(rig):

@@ -3,6 +3,7 @@ import math
 from pathlib import Path
 
 from .judge import Wrong
+from .peer import wait_until_heard
 from .process import SCENE
 from .registry import fault
 
@@ -109,9 +110,7 @@ def _cycles(rig, count):
 def winch_nonsense(rig):
     rig.send(20)
     winch = rig.peer.publisher("/mooring/unstretched_lengths", _LENGTHS)
-    while not winch.subscriber_count:
-        rig.peer.wait(lambda: False, 0.01)
-    rig.peer.wait(lambda: False, 0.3)
+    wait_until_heard(winch)
     for names, lengths in ((["line9"], [800.0]), (["line1"], [math.nan]), (["line1"], [-5.0]), (["line1", "line2"], [800.0, 0.0]),
                            (["line1"], [math.inf]), (["line1", "line2"], [800.0]), ([], []), (["line1", "line1"], [800.0, 801.0]),
                            (["../../line1"], [800.0])):
@@ -126,9 +125,7 @@ def winch_nonsense(rig):
 def winch_slip(rig):
     rig.send(20)
     winch = rig.peer.publisher("/mooring/unstretched_lengths", _LENGTHS)
-    while not winch.subscriber_count:
-        rig.peer.wait(lambda: False, 0.01)
-    rig.peer.wait(lambda: False, 0.3)
+    wait_until_heard(winch)
     rig.mark()
     winch.send({"name": ["line1"], "position": [83.5]})
     rig.expect("core", "unstretched lengths refused: unstretched length of line1 is 83.5 m")

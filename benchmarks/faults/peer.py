@@ -10,6 +10,7 @@ from .process import START
 
 ODOMETRY, WRENCH, DIAGNOSTICS = "nav_msgs/msg/Odometry", "geometry_msgs/msg/WrenchStamped", "diagnostic_msgs/msg/DiagnosticArray"
 _POLL = 0.05    # s
+_ONE_SIDED = 0.3    # s: discovery is one-sided for a moment
 
 
 class Heard(NamedTuple):
@@ -28,6 +29,13 @@ class Status(NamedTuple):
     level: int
     message: str
     values: dict
+
+
+def wait_until_heard(publisher, pause=_ONE_SIDED):
+    """Until somebody listens to a publisher, and `pause` (s) more."""
+    while not publisher.subscriber_count:
+        time.sleep(0.01)
+    time.sleep(pause)
 
 
 class Peer:
@@ -56,9 +64,8 @@ class Peer:
             if time.monotonic() > end or not alive():
                 raise TimeoutError("no node subscribes to /platform/odom" + ("" if alive() else ": it has ended"))
             time.sleep(0.01)
-        # Discovery is one-sided for a moment: who hears the node's diagnostics will hear its wrenches.
-        self.wait(lambda: self.statuses, 3.0)
-        time.sleep(0.3)
+        self.wait(lambda: self.statuses, 3.0)       # who hears the node's diagnostics will hear its wrenches
+        time.sleep(_ONE_SIDED)
 
     def wait(self, condition, timeout):
         """Until condition() is true; returns its result, or its last one (false) after timeout (s)."""

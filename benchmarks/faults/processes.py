@@ -117,12 +117,7 @@ def process_stopped_age(rig):
     rig.process.send(signal.SIGCONT)
     rig.expect("input", "stale: sample is")
     rig.judged()
-    for number in range(1000):
-        rig.stamp = time.time_ns()
-        rig.send()
-        if number > 20 and not rig.judge.blends:
-            break
-        time.sleep(0.005)
+    rig.running_by_the_wall_clock()
 
 
 @fault("the process that estimates the accuracy killed", "deactivate and activate; the wrenches do not need it", node=None, quick=False)

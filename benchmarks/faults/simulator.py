@@ -8,15 +8,14 @@ import time
 import rosless
 
 from . import motion
+from .peer import wait_until_heard
 from .rig import STEP
 
 
 def main(domain, begin, shift):
     """Send until killed."""
     odometry = rosless.Node(domain=domain).advertise("/platform/odom", "nav_msgs/msg/Odometry", reliability="reliable", depth=1000)
-    while not odometry.subscriber_count:
-        time.sleep(0.01)
-    time.sleep(0.3)     # discovery is one-sided for a moment
+    wait_until_heard(odometry)
     stamp, due = begin, time.monotonic()
     while True:
         state = motion.at(stamp * 1e-9)

@@ -9,7 +9,7 @@ import time
 
 from . import motion
 from .judge import Wrong
-from .peer import ODOMETRY, WRENCH
+from .peer import ODOMETRY, WRENCH, wait_until_heard
 from .process import ROOT
 from .registry import fault
 from .rig import BEGIN, STEP, Rig
@@ -79,8 +79,7 @@ def two_equal_publishers(folder):
         rig.send(20)
         other = rig.peer.publisher("/platform/odom", ODOMETRY)
         rig.mark()
-        while not other.subscriber_count:
-            time.sleep(0.01)
+        wait_until_heard(other, pause=0.0)
         rig.expect("input", "2 publishers")
         for _ in range(50):
             stamp, state = rig.stamp, rig.state(rig.stamp)
