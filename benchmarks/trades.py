@@ -19,7 +19,7 @@ from mooring_ros.offline.trade_measure import measure as measured
 from mooring_ros.offline.trade_setting import Setting
 from mooring_ros.offline.trade_window import whole
 
-from . import figures, peer_search, tables
+from . import figures, peer_runs, peer_search, tables
 from .motions import poses_and_twists
 from .peer_cases import BY_NAME, TRADED, fairleads
 
@@ -33,6 +33,7 @@ DEAR = (  # whose fine runs cost the peers minutes each
     "ISWEC, bridles and clump weights", "farm of 100 lines",
 )  # fmt: skip
 SHOWN = 0.01  # error at which the codes are compared in the table
+TIMINGS = 2  # more of a peer's setting in that table, now; the least of all counts, as it does in ours
 METHODS = {  # of ours: marker and colour index
     "dynamic, explicit": ("o", 0), "dynamic, implicit": ("s", 3), "quasi_static": ("^", 5), "linear": ("v", 7),
 }  # fmt: skip
@@ -117,7 +118,11 @@ def of_moordyn(case):
     reference = peer_search.moordyn_reference(case, 2.0 * finest, 2)
     if reference.failure:
         return [], reference.failure
-    return _points("MoorDyn", peer_search.moordyn_grid(case, reference, measure, finest)), ""
+
+    def again(s):
+        return peer_runs.of_moordyn(case, s.name.split(",")[0], s.dt, s.refinement, fresh=True).cost
+
+    return _points("MoorDyn", peer_search.moordyn_grid(case, reference, measure, finest), again), ""
 
 
 def of_cabledyn(case):
@@ -127,11 +132,18 @@ def of_cabledyn(case):
     if reference.failure:
         return [], reference.failure
     meshes = [m for m in peer_search.MESHES if m <= 1.0 or not dear]
-    return _points("CableDyn", peer_search.cabledyn_settings(case, reference, measure, meshes)), ""
+
+    def again(s):
+        return peer_runs.of_cabledyn(case, s.dt, s.refinement, fresh=True).cost
+
+    return _points("CableDyn", peer_search.cabledyn_settings(case, reference, measure, meshes), again), ""
 
 
-def _points(code, settings):
-    return [Point(code, s.label(), s.error, s.cost) for s in settings if np.isfinite(s.error)]
+def _points(code, settings, again):
+    """Points of a peer's settings; `again` runs one anew and gives its cost."""
+    best = peer_search.best(settings, SHOWN)
+    least = min(best.cost, *(again(best) for _ in range(TIMINGS))) if best else None
+    return [Point(code, s.label(), s.error, least if s is best else s.cost) for s in settings if np.isfinite(s.error)]
 
 
 def run(quick=False):
