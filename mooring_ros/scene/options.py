@@ -230,6 +230,6 @@ def _unknown(row: Row) -> str:
     if value.upper() in FATES and parse_number(name) is not None:
         return f"'{value}' stands before its value, expected '{name} {value}': the value comes first"
     usual = {fate.name.upper(): fate.name for fate in FATES.values()}
-    near = difflib.get_close_matches(name.upper(), FATES, n=1, cutoff=0.5)
+    near = difflib.get_close_matches(name.upper(), FATES, n=1, cutoff=0.6)
     expected = f"{FATES[near[0]].name} or another option of MoorDyn" if near else "one of " + ", ".join(usual.values())
     return f"unknown option '{name}', expected {expected}"

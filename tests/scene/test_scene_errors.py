@@ -109,6 +109,7 @@ CHANGES = [
     ("0.3      CurrentX", "nan      CurrentX", "CurrentX is 'nan', expected a number (m/s)"),
     ("0.001    dtM", "fast    dtM", "dtM is 'fast', expected a number (s)"),
     ("0.001    dtM", "0.001    dtMax", "unknown option 'dtMax', expected dtM or another option of MoorDyn"),
+    ("0.001    dtM", "0.001    frobnicate", "unknown option 'frobnicate', expected one of "),
     ("0.001    dtM", "dtM    0.001", "'dtM' stands before its value, expected '0.001 dtM'"),
     ("0.001    dtM      time step", "0.001", "'0.001' stands alone, expected a value and the name of an option"),
     ("0.001    dtM", "9.8    gravity", "a second value for g (the first is in line"),
