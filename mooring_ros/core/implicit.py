@@ -1,8 +1,9 @@
 """Implicit time stepping over one interval between two samples of the platform's motion: generalised-alpha with Newton's method.
 
 Steps are as long as the motion, the curves of the lines and the waves across them allow; axial waves, internal damping, bending and the bed's
-stiffness do not limit them. A step whose forces do not come to balance, or in which tensions jump, is taken in two halves, down to FINEST (jumps: to
-SUDDEN_PIECES), and the finer step is kept for a while. So a step costs at most FINEST * (1 + MOST_ITERATIONS * (1 + SEARCHES)) evaluations.
+stiffness do not limit them. A step whose forces do not come to balance, or in which tensions jump or bend, is taken in two halves, down to FINEST
+(implicit_control.py: less for tensions), and the finer step is kept for a while. So a step costs at most
+FINEST * (1 + MOST_ITERATIONS * (1 + SEARCHES)) evaluations.
 """
 
 from dataclasses import replace
@@ -15,6 +16,7 @@ from .explicit import look_at_surface, remember_grip
 from .failures import part
 from .forces import evaluate_in_place
 from .guard import EVEN, FASTEST, IMPLAUSIBLE, copy_row, copy_rows, keep_tension, overstretched, recall, runaway, save, speed_of_ends, tension_jumped
+from .implicit_control import BENT, BENT_PIECES, CALM, SUDDEN, calm_step, jumps_may_be_finer, keep_rate, passing_of_waves, tension_bent
 from .implicit_gates import forget_landings
 from .implicit_newton import LOOSE, NEWTON_DONE, TOLERANCE, Work, balance_step, keep_start, return_to_start, scheme_of
 from .implicit_parts import share_accelerations
@@ -28,12 +30,11 @@ from .waves import copy_window, outdated, refresh
 
 PARTED = 16  # status besides those of explicit.py: lines have parted, the equations must be listed again
 FINEST = 256  # parts of a step that are tried
-SUDDEN, SUDDEN_PIECES = 0.08, 32  # of a tension and the line's weight: its change in a step that is too much; parts of a step that are tried for it
 KEPT = 8  # steps for which a finer step is kept
 SPECTRAL_RADIUS = 0.6
 LONGEST, STEPS_A_SWING = 0.05, 50.0  # s; of the step that is taken when none is given
 UNDAMPED = 0.1  # of it where no water takes the waves across the lines away
-HARD_BED, ON_HARD_BED = 2e-3, 0.4  # s, of StepLimit's bed damping: below, what lands stops at once and the line rings; the step is so much shorter there
+HARD_BED, ON_HARD_BED = 2e-3, 0.5  # s, of StepLimit's bed damping: below, what lands stops at once and the line rings; the step is so much shorter there
 SMOOTHING = 1e-3  # s: samples closer than this share one mean acceleration
 LEAST_STRAIN = 1e-9
 ROUNDING = 16.0 * np.finfo(float).eps
@@ -45,6 +46,7 @@ def save_accelerations(state, work):
     copy_rows(state.filtered, work.saved[1])
     copy_rows(state.parts_acceleration, work.saved_parts[0])
     copy_rows(state.parts_filtered, work.saved_parts[1])
+    copy_row(state.tension_rate, work.saved_rate)
 
 
 @routine
@@ -53,6 +55,7 @@ def recall_accelerations(state, work):
     copy_rows(work.saved[1], state.filtered)
     copy_rows(work.saved_parts[0], state.parts_acceleration)
     copy_rows(work.saved_parts[1], state.parts_filtered)
+    copy_row(work.saved_rate, state.tension_rate)
 
 
 @routine
@@ -69,8 +72,11 @@ def coarsest(at, pieces):
 
 
 @paragraph
-def take_step(model, state, scratch, plan, work, scheme, h, start, share, fastest, report):
-    """One step of h (s), `share` of the interval, in pieces where it must be. Returns False when the finest one does not come near a balance."""
+def take_step(model, state, scratch, plan, work, scheme, h, start, share, fastest, passing, report):
+    """One step of h (s), `share` of the interval, in pieces where it must be. Returns False when the finest one does not come near a balance.
+
+    passing (s): see `passing_of_waves`.
+    """
     settings = state.settings
     pieces = FINEST // int(settings[3])
     at, good = 0, True
@@ -84,9 +90,12 @@ def take_step(model, state, scratch, plan, work, scheme, h, start, share, fastes
         status, iterations, evaluations = balance_step(model, state, scratch, plan, work, scheme, piece, end, tolerance)
         report[0] += evaluations
         jumped = tension_jumped(model, state, scratch, SUDDEN) != EVEN
-        sudden = jumped and pieces > FINEST // SUDDEN_PIECES
-        if status == NEWTON_DONE and not sudden and not runaway(model, state, fastest):
+        bent = tension_bent(model, state, scratch, piece, BENT)
+        coarse = jumped and jumps_may_be_finer(FINEST // pieces, piece, passing) or bent and FINEST // pieces < BENT_PIECES
+        if status == NEWTON_DONE and not coarse and not runaway(model, state, fastest):
             at += pieces
+            calm = tension_jumped(model, state, scratch, CALM * SUDDEN) == EVEN and not tension_bent(model, state, scratch, piece, CALM**2 * BENT)
+            keep_rate(model, state, scratch, piece)
             report[1] += 1.0
             report[3] = min(report[3], piece)
             report[4] += 1.0 if jumped else 0.0
@@ -95,7 +104,7 @@ def take_step(model, state, scratch, plan, work, scheme, h, start, share, fastes
             if state.grip.shape[1] > 0:
                 remember_grip(model, state, scratch)
             settings[4] += 1.0
-            if settings[4] >= KEPT and coarsest(at, pieces) and tension_jumped(model, state, scratch, 0.5 * SUDDEN) == EVEN:
+            if settings[4] >= KEPT and coarsest(at, pieces) and calm:
                 pieces, settings[4] = 2 * pieces, 0.0
         else:
             return_to_start(model, state, work)
@@ -111,7 +120,7 @@ def take_step(model, state, scratch, plan, work, scheme, h, start, share, fastes
 
 
 @paragraph
-def advance(model, state, scratch, plan, work, scheme, longest, time, poses, twists, progress, report):
+def advance(model, state, scratch, plan, work, scheme, longest, passing, time, poses, twists, progress, report):
     """Advance `state` to `time` (s), where the platforms have poses (M, 7) and twists (M, 6), in steps of at most `longest` (s). Returns a status code.
 
     A refused interval leaves the state as it was. `report` (5,) gets evaluations, pieces of steps, those taken again, the shortest (s), and those in
@@ -132,11 +141,12 @@ def advance(model, state, scratch, plan, work, scheme, longest, time, poses, twi
         save_accelerations(state, work)
         for k in range(10):
             work.settings[k] = settings[k]
+        work.settings[11] = calm_step(model, state, twists, scratch.motion, max(duration, longest))
         average_acceleration(state, scratch, twists, duration, min(duration / SMOOTHING, 1.0))
         work.settings[10] = 0.0  # whether the waves have been looked at further ahead
         report[0], report[1], report[2], report[3], report[4] = 0.0, 0.0, 0.0, duration, 0.0
     settings[0], settings[1], settings[8], settings[9] = 0.0, 0.0, 0.0, 0.0
-    steps = int(np.ceil(duration / min(longest, model.sea.refresh) - 1e-9))
+    steps = int(np.ceil(duration / min(longest, work.settings[11], model.sea.refresh) - 1e-9))
     h = duration / steps
     good, torn = True, False
     while progress[0] < steps and good:
@@ -148,7 +158,7 @@ def advance(model, state, scratch, plan, work, scheme, longest, time, poses, twi
                 work.settings[10] = 1.0
             refresh(model.sea, now, now + h, model.size, state.position, state.velocity, scratch.wave_work, state.window_times, state.window)
         look_at_surface(model, state, SURFACE_MARGIN + model.bulk + h * max(LIKELY_SPEED, ends))
-        good = take_step(model, state, scratch, plan, work, scheme, h, j / steps, 1.0 / steps, fastest, report)
+        good = take_step(model, state, scratch, plan, work, scheme, h, j / steps, 1.0 / steps, fastest, passing, report)
         progress[0] += 1
         if good and model.failures.point.size > 0:
             parted = part(
@@ -179,10 +189,10 @@ def advance(model, state, scratch, plan, work, scheme, longest, time, poses, twi
 
 @entry
 @kernel
-def run(model, state, scratch, plan, work, scheme, longest, times, poses, twists, first, progress, report, readings):
+def run(model, state, scratch, plan, work, scheme, longest, passing, times, poses, twists, first, progress, report, readings):
     """Advance through samples from the `first` on: times (k,), poses (k, M, 7), twists (k, M, 6); readings get a row for each. Returns (status, samples done)."""
     for sample in range(first, times.size):
-        status = advance(model, state, scratch, plan, work, scheme, longest, times[sample], poses[sample], twists[sample], progress, report)
+        status = advance(model, state, scratch, plan, work, scheme, longest, passing, times[sample], poses[sample], twists[sample], progress, report)
         if status != DONE:
             return status, sample
         show(model, state, sample, readings)
@@ -220,7 +230,7 @@ class ImplicitSolver:
     """
 
     def __init__(self, model, longest, spectral_radius):
-        self.longest, self._force_scale = float(longest), force_scale(model)
+        self._steps, self._force_scale = (float(longest), passing_of_waves(model)), force_scale(model)
         self._scheme = tuple(float(value) for value in scheme_of(spectral_radius))
         self._topology, self._work, self._progress = None, None, np.zeros(1, dtype=np.int64)
 
@@ -228,6 +238,7 @@ class ImplicitSolver:
         """Begin at rest."""
         state.filtered[:] = state.acceleration
         state.parts_filtered[:] = state.parts_acceleration
+        state.tension_rate[:] = 0.0
 
     def run(self, model, state, scratch, times, poses, twists, report, readings):
         """As `explicit.run`."""
@@ -237,14 +248,17 @@ class ImplicitSolver:
                 self._list(model, state)
             plan, work = self._topology.plan, self._work
             status, done = run(
-                model, state, scratch, plan, work, self._scheme, self.longest, times, poses, twists, done, self._progress, report, readings
+                model, state, scratch, plan, work, self._scheme, *self._steps, times, poses, twists, done, self._progress, report, readings
             )
             if status != PARTED:
                 return status, done
 
     def _list(self, model, state):
         self._topology = make_topology(model, state, self._force_scale)
-        self._work = _new_work(model, self._topology.plan)
+        work, kept = _new_work(model, self._topology.plan), self._work
+        if kept is not None:  # lines may have parted within an interval: its start is still there to go back to
+            work = work._replace(saved=kept.saved, saved_parts=kept.saved_parts, saved_rate=kept.saved_rate, settings=kept.settings)
+        self._work = work
 
 
 def force_scale(model):
@@ -285,5 +299,6 @@ def _new_work(model, plan):
         turned=np.zeros((parts, 3)),
         saved=np.zeros((2, 3, n)),
         saved_parts=np.zeros((2, parts, 6)),
-        settings=np.zeros(11),
+        saved_rate=np.zeros(n),
+        settings=np.zeros(12),
     )

@@ -60,7 +60,8 @@ class Work(NamedTuple):
     turned: np.ndarray  # (B, 3): rotation vector since a step's start
     saved: np.ndarray  # (2, 3, n): accelerations of the interval's start
     saved_parts: np.ndarray  # (2, B, 6)
-    settings: np.ndarray  # (11,): State.settings of the interval's start, and whether the waves have been looked at further ahead
+    saved_rate: np.ndarray  # (n,) N/s: State.tension_rate of the interval's start
+    settings: np.ndarray  # (12,): State.settings of the interval's start, whether the waves have been looked at further ahead, and calm_step (s)
 
 
 class Scheme(NamedTuple):

@@ -125,6 +125,7 @@ class State(NamedTuple):
     acceleration: np.ndarray  # (3, n), m/s^2
     filtered: np.ndarray  # (3, n), m/s^2: acceleration that carries the implicit steps (implicit_newton.py)
     parts_filtered: np.ndarray  # (B, 6), m/s^2, rad/s^2
+    tension_rate: np.ndarray  # (n,), N/s: of the tensions over the last implicit step (implicit_control.py)
     force: np.ndarray  # (3, n), N: all forces on a node but inertia
     tangent: np.ndarray  # (3, n): unit vectors of the segments, null for null segments
     tension: np.ndarray  # (n,), N, of the segments
@@ -425,6 +426,7 @@ def new_state(model, end_point):
         force=np.zeros((3, n)),
         filtered=np.zeros((3, n)),
         parts_filtered=np.zeros((parts, 6)),
+        tension_rate=np.zeros(n),
         tangent=np.zeros((3, n)),
         tension=np.zeros(n),
         strain_rate=np.zeros(n),
