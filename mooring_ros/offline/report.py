@@ -24,7 +24,8 @@ p { margin: .5rem 0; max-width: 48rem; }
 table { border-collapse: collapse; margin: .75rem 0; font-size: .875rem; font-variant-numeric: tabular-nums; }
 th, td { padding: .3rem .75rem; text-align: left; border-bottom: 1px solid #e4e9ef; }
 th { border-bottom: 2px solid #aab6c3; font-weight: 600; vertical-align: bottom; }
-th.number, td.number { text-align: right; white-space: nowrap; }
+th.number, td.number { text-align: right; }
+td.number { white-space: nowrap; }
 figure { margin: 1rem 0 1.5rem; break-inside: avoid; }
 figure svg { max-width: 100%; height: auto; display: block; }
 figcaption { color: #51606f; font-size: .875rem; margin-top: .25rem; }
