@@ -63,7 +63,8 @@ class Mooring:
 
     pose is (7,): x, y, z (m) and a unit quaternion x, y, z, w; twist is (6,): velocity (m/s) of the reference point and angular velocity
     (rad/s); all in the world frame, z up from the still water level. With `platforms`, pose, twist and wrench are (platforms, 7) and (platforms, 6),
-    whatever is said of (7,) and (6,) here. A line's fairlead is its coupled end (end B if both or none are).
+    whatever is said of (7,) and (6,) here. A line's fairlead is its coupled end, or, where none is coupled, the one that is not fixed (end B if both
+    are alike).
     Raises SceneError for a bad scene, ValueError for bad arguments; MooringError when a computation cannot be completed.
     """
 

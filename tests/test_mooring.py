@@ -95,6 +95,16 @@ def test_line_between_two_fairleads_and_line_written_from_the_platform():
     np.testing.assert_allclose(one.wrench[:3], one.coupled_wrenches[:, :3].sum(axis=0), rtol=1e-12)
 
 
+def test_the_fairlead_of_a_line_that_no_platform_holds_is_the_end_that_is_not_fixed():
+    """A line with a buoy on it, 50 m above its anchor: the upper end pulls harder, by the line's weight."""
+    kind = line_type(0.1, 100.0, 1e8)
+    points = [(FIXED, (0, 0, -50)), (FREE, (0, 0, -1), 0.0, 10.0), (COUPLED, (20, 0, -5))]
+    for ends in ((1, 2), (2, 1)):
+        mooring = settled(scene(points, [(kind, *ends, 49.0, 10), (kind, 2, 3, 25.0, 10)], depth=50.0))
+        weight = 10.0 / 11.0 * (100.0 - 1025.0 * np.pi / 4.0 * 0.1**2) * 9.8 * 49.0  # between the middles of the end segments
+        assert mooring.fairlead_tension[0] - mooring.anchor_tension[0] == pytest.approx(weight, rel=0.05)
+
+
 def test_refine_scales_the_files_segments_of_each_line():
     path = SCENES / "rm3_cable.txt"
     in_file = [line.segments for line in Mooring(path).scene.lines]

@@ -122,8 +122,10 @@ class Layout:
             return points[0] if end.end == "A" else points[-1]
         return self._point_index[end]
 
-    def is_coupled(self, end):
-        return self.points[self.holder(end)].kind == POINT_COUPLED
+    def rank(self, end):
+        """Of the two ends of a line the one with the higher rank is its fairlead: coupled ones before those that move by themselves, these before fixed ones."""
+        kind = self.points[self.holder(end)].kind
+        return 2 if kind == POINT_COUPLED else 0 if kind == POINT_FIXED else 1
 
     def clamps(self, scene):
         """[(line end, internal point, axis (3,) into the line in the axes of what turns it, part or NO_PART)] of all lines that bend at rods."""

@@ -219,7 +219,7 @@ def build(scene, segments=None, layout=None):
         first_node.append(start)
         end_node += [start, start + count]
         end_point += [layout.holder(line.end_a), layout.holder(line.end_b)]
-        fairlead_end.append(0 if layout.is_coupled(line.end_a) and not layout.is_coupled(line.end_b) else 1)
+        fairlead_end.append(0 if layout.rank(line.end_a) > layout.rank(line.end_b) else 1)
         start += count + 1
     for rod in layout.rods.values():
         if rod.length > 0.0:
