@@ -11,7 +11,7 @@ from . import machine, tables
 BENCHMARKS = {
     "peer_moordyn": "OC4 and VolturnUS-S chains: how far the converged runs of MoorDyn and ours are apart",
     "peer_cost": "what a simulated second costs beside MoorDyn's and CableDyn's best, at the same error (the peers' runs are kept)",
-    "trade": "what mooring trade says of error and cost against the truth, on six scenes kept aside (ten minutes)",
+    "trade": "what mooring trade says of error and cost against the truth, on six scenes kept aside (half an hour)",
     "trades": "the trade of speed for accuracy on twelve moorings, beside MoorDyn's and CableDyn's best (half an hour)",
     "closed_forms": "statics and platform stiffness against closed forms",
     "extremes": "the battery of extremes beside MoorDyn, and ten thousand random scenes (an hour or two)",
