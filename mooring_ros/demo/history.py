@@ -9,6 +9,7 @@ from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import JointState, PointCloud2
 from std_msgs.msg import Float64MultiArray
 
+from mooring_ros.coupling.channel import stamp_of
 from mooring_ros.recording.reader import Recording
 
 _MOTION, _WRENCH, _LINES, _TENSIONS, _NODES = (
@@ -71,7 +72,7 @@ def _read(path, topics, start_stamp):
     for entry in Recording(path).messages(set(topics)):
         message = deserialize_message(entry.data, _TYPES[entry.topic])
         # A message without a header goes by the time of the log, which is that of its input.
-        if (_stamp(message) if hasattr(message, "header") else entry.log_time) >= start_stamp:
+        if (stamp_of(message) if hasattr(message, "header") else entry.log_time) >= start_stamp:
             found[entry.topic].append(message)
     for topic, messages in found.items():
         if not messages:
@@ -94,12 +95,8 @@ def _answers(path, found, start_stamp):
     )
 
 
-def _stamp(message):
-    return message.header.stamp.sec * 1_000_000_000 + message.header.stamp.nanosec
-
-
 def _time(message, start_stamp):
-    return (_stamp(message) - start_stamp) * 1e-9
+    return (stamp_of(message) - start_stamp) * 1e-9
 
 
 def _pose(message):
