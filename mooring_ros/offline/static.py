@@ -2,11 +2,14 @@
 
 import numpy as np
 
+from mooring_ros.scene import bed_level
+
 from .angles import roll_pitch_yaw
 from .arguments import add_platforms_argument, load_mooring, names_of, pose, remarks_on
 from .console import ComputationFailed, Preparing, UsageError, complain, print_json, table
 
 _AXES = ("x", "y", "z", "rx", "ry", "rz")
+_LONGEST, _DEEPEST = 1.5, 0.05  # of the unstretched length; of the depth: what lies on a bed sinks in by less
 
 
 def add_arguments(parser):
@@ -84,7 +87,18 @@ def solve(scene, pose, platforms=None):
         "iterations": int(found.iterations),
         **_parts(mooring),
     }
-    return solution, remarks_on(mooring)
+    return solution, [*remarks_on(mooring), *_implausible(mooring)]
+
+
+def _implausible(mooring):
+    """Remarks on a solution that no mooring has: the pose is a mistake, or a unit of the scene."""
+    env = mooring.scene.environment
+    for name, length, unstretched in zip(mooring.line_names, mooring.stretched_length.tolist(), mooring.unstretched_length.tolist()):
+        if length > _LONGEST * unstretched:
+            yield f"{name} is stretched to {length:.5g} m from {unstretched:.5g} m"
+        deepest = max(bed_level(env, x, y) - z for x, y, z in mooring.node_positions(name).tolist())
+        if deepest > _DEEPEST * env.depth:
+            yield f"{name} is up to {deepest:.5g} m in the ground"
 
 
 def _wrench(mooring):

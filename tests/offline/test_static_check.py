@@ -232,3 +232,9 @@ def test_a_terminal_is_told_that_work_has_begun(terminal):
     with Preparing("static", stream):
         assert stream.getvalue().startswith("static: preparing") == terminal
     assert stream.getvalue().endswith("\x1b[K") == terminal
+
+
+@pytest.mark.parametrize("pose, words", [("800,0,0,0,0,0", "line2 is stretched to"), ("0,0,-90,0,0,0", "line1 is up to 35 m in the ground"), (POSE, "")])
+def test_a_pose_that_no_mooring_has_is_said(scene, mooring, pose, words):
+    found = mooring("static", scene, f"--pose={pose}")
+    assert found.status == 0 and words in found.err and bool(found.err) == bool(words)
