@@ -12,6 +12,7 @@ from mooring_ros.node import loop, realtime
 from mooring_ros.node.timing import FixedRate
 
 from . import tables
+from .domains import free_domain
 
 RATE, PRIORITY = 200.0, 50
 SHARES = (50.0, 99.0, 99.9, 100.0)
@@ -20,7 +21,7 @@ SHARES = (50.0, 99.0, 99.9, 100.0)
 def run(quick=False):
     """All three, with ordinary scheduling and with SCHED_FIFO."""
     os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
-    os.environ.setdefault("ROS_DOMAIN_ID", str(os.getpid() % 100 + 100))
+    os.environ.setdefault("ROS_DOMAIN_ID", str(free_domain()))
     cycles, rows = 300 if quick else 3000, []
     rclpy.init()
     node, executor = rclpy.create_node("loops"), EventsExecutor()

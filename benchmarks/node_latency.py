@@ -23,6 +23,8 @@ from rclpy.executors import ExternalShutdownException
 from rclpy.experimental.events_executor import EventsExecutor
 from rclpy.qos import QoSProfile
 
+from .domains import free_domain
+
 SCENE = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "config", "scenes", "oc4.txt")
 ECHOES = ("echo", "echo_events")
 NODES = (*ECHOES, "mooring")
@@ -130,7 +132,7 @@ def nodes(scene):
 def run(scene, rates, seconds, rounds, progress):
     """For each rate: the nodes' percentiles (ms), the ratio of the mooring node's to the echo's, and the answers that never came."""
     os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
-    os.environ.setdefault("ROS_DOMAIN_ID", str(os.getpid() % 100 + 100))
+    os.environ.setdefault("ROS_DOMAIN_ID", str(free_domain()))
     rows = []
     with nodes(scene) as processes:
         rclpy.init()

@@ -30,6 +30,7 @@ from mooring_ros.node.punctuality import Punctuality
 from mooring_ros.node.timing import FixedRate
 
 from . import tables
+from .domains import free_domain
 from .node_latency import motion
 
 ROOT = Path(__file__).parent.parent
@@ -51,7 +52,7 @@ def add_arguments(parser):
 def run(quick=False, steps=20_000, rate=None, hog=False, fifo=False):
     """All runs, in rounds."""
     os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
-    os.environ.setdefault("ROS_DOMAIN_ID", str(os.getpid() % 100 + 100))
+    os.environ.setdefault("ROS_DOMAIN_ID", str(free_domain()))
     steps, rounds = (1000, 1) if quick else (steps, ROUNDS)
     rows, failed = [], []
     for hertz, loaded, real_time in itertools.product((rate,) if rate else RATES, (True,) if hog else (False, True), (True,) if fifo else (False, True)):

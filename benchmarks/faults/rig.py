@@ -1,11 +1,10 @@
 """A node process with its peer, services and judge, and what the faults do with them."""
-import itertools
 import math
-import os
 import re
 import tempfile
 import time
 
+from ..domains import free_domain
 from . import motion
 from .judge import Judge, Wrong
 from .peer import Peer
@@ -17,12 +16,6 @@ BEGIN = 10_000_000_000  # ns, the first stamp
 SHOWN_WITHIN = 0.5      # s
 PATIENCE = 3.0          # s more, to tell what comes late from what never comes
 _ANSWER = 5.0           # s
-_domains = itertools.count()
-
-
-def free_domain():
-    """A ROS domain that no other test process uses at the same time."""
-    return (os.getpid() * 7 + next(_domains)) % 90 + 100
 
 
 class Rig:

@@ -12,10 +12,10 @@ import numpy as np
 from mcap.reader import make_reader
 
 from .. import tables
+from ..domains import free_domain
 from . import motion
 from .peer import Peer
 from .process import ROOT, SCENE, NodeProcess
-from .rig import free_domain
 
 MEMORY_EVERY = 5.0      # s
 MEMORY_MAY_GROW = 1.0   # %

@@ -24,6 +24,7 @@ COMPRESSIONS = {'zstd': CompressionType.ZSTD, 'lz4': CompressionType.LZ4, 'none'
 MESSAGE_OVERHEAD = 200              # bytes that a queued message takes beside its data
 POLL = 0.02                         # s, how often the thread looks at its queue
 RETRY = 0.5                         # s between two tries on a disk that refuses
+FLUSH = 0.4                         # s: what a kill may cost; each chunk has its place in the file's index, which stays in memory
 YIELD_EVERY = 8                     # messages between two offers of the interpreter to other threads
 LATEST = 2**63 - 1
 
@@ -53,7 +54,7 @@ class RecordingWriter:
     """
 
     def __init__(self, path, parameters, scene=None, *, chunk_size=256 * 1024, compression='zstd',
-                 queue_limit_bytes=64 * 1024 * 1024, flush_period=0.2):
+                 queue_limit_bytes=64 * 1024 * 1024, flush_period=FLUSH):
         if compression not in COMPRESSIONS:
             raise RecordingError(f'compression {compression!r}: expected one of {", ".join(COMPRESSIONS)}')
         metadata = {METADATA_NAME: {str(key): json.dumps(value, default=_plain) for key, value in parameters.items()}}

@@ -1,11 +1,12 @@
 """A spring in the place of the mooring node, on a ROS domain of the test's own."""
 
-import os
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+
+from benchmarks.domains import free_domain
 
 STAND_IN = Path(__file__).with_name("stand_in_mooring.py")
 
@@ -13,7 +14,7 @@ STAND_IN = Path(__file__).with_name("stand_in_mooring.py")
 @pytest.fixture
 def domain(monkeypatch):
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
-    monkeypatch.setenv("ROS_DOMAIN_ID", str(101 + os.getpid() % 60))
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(free_domain()))
 
 
 @pytest.fixture

@@ -9,6 +9,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+
+from benchmarks.domains import free_domain
 from mcap_ros2.reader import read_ros2_messages
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -16,7 +18,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 def variables():
     path = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")]))
-    return {**os.environ, "PYTHONPATH": path, "ROS_DOMAIN_ID": str(161 + os.getpid() % 50), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+    return {**os.environ, "PYTHONPATH": path, "ROS_DOMAIN_ID": str(free_domain()), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
 
 
 def start(folder, *words):

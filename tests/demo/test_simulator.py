@@ -10,13 +10,15 @@ from pathlib import Path
 
 import pytest
 
+from benchmarks.domains import free_domain
+
 STAND_IN = Path(__file__).parents[1] / "coupling" / "stand_in_mooring.py"
 ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture
 def environment():
-    domain = str(101 + os.getpid() % 60)
+    domain = str(free_domain())
     path = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")]))
     return {**os.environ, "ROS_DOMAIN_ID": domain, "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST", "PYTHONPATH": path}
 

@@ -1,6 +1,5 @@
 """A node process under test and a peer that talks to it over DDS."""
 import contextlib
-import itertools
 import os
 import signal
 import subprocess
@@ -24,18 +23,14 @@ from std_msgs.msg import Float64MultiArray
 from std_srvs.srv import Trigger
 from lifecycle_msgs.msg import Transition
 
+from benchmarks.domains import free_domain
+
 SCENE = str(Path(__file__).parents[2] / "config" / "scenes" / "oc4.txt")
 UPRIGHT = (0.0, 0.0, 0.0, 1.0)
 START = 180.0           # s, cold compilation included
-_domains = itertools.count()
 
 TRANSITIONS = {"configure": Transition.TRANSITION_CONFIGURE, "activate": Transition.TRANSITION_ACTIVATE,
                "deactivate": Transition.TRANSITION_DEACTIVATE, "cleanup": Transition.TRANSITION_CLEANUP}
-
-
-def free_domain():
-    """A ROS domain that no other test process uses at the same time."""
-    return (os.getpid() * 7 + next(_domains)) % 200 + 10
 
 
 class NodeProcess:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from benchmarks.domains import free_domain
 from mooring_ros.offline.status_text import status_text
 from mooring_ros.offline.status_view import SILENT, View
 
@@ -81,7 +82,8 @@ def run_status(*arguments, domain):
 
 
 def test_where_no_node_is_heard_it_says_so_with_the_domain_and_ends_with_status_one():
-    done = run_status("--json", "--wait", "0.5", domain=119)
+    domain = free_domain()
+    done = run_status("--json", "--wait", "0.5", domain=domain)
     assert done.returncode == 1 and done.stdout == ""
-    assert len(done.stderr.splitlines()) == 1 and "nothing heard of a mooring node within 0.5 s" in done.stderr and "ROS_DOMAIN_ID=119" in done.stderr
+    assert len(done.stderr.splitlines()) == 1 and "nothing heard of a mooring node within 0.5 s" in done.stderr and f"ROS_DOMAIN_ID={domain}" in done.stderr
 
