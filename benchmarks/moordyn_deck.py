@@ -128,6 +128,8 @@ def _rods(scene):
 def _friction(friction):
     if not friction.isotropic:
         raise DeckError("the peer's friction is the same in all directions")
+    if friction.kinetic_axial == 0.0 == friction.static_axial:
+        return []
     scale = friction.static_axial / friction.kinetic_axial
     return [f"{friction.kinetic_axial!r} FrictionCoefficient", f"{scale * friction.ramp!r} FricDamp", f"{scale!r} StatDynFricScale"]
 
