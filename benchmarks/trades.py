@@ -9,6 +9,7 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
+from matplotlib.ticker import NullFormatter
 from scipy.interpolate import CubicSpline
 
 from mooring_ros.mooring import Mooring
@@ -222,6 +223,8 @@ def figure(found):
             front = peer_search.front(of_code(f["points"], code))
             axis.plot([1e3 * p.cost for p in front], [100 * p.error for p in front], color=colour, linewidth=1.0, linestyle="--")
         axis.set(xscale="log", yscale="log", xlabel="CPU ms per simulated s", ylabel="error (%)")
+        axis.xaxis.set_minor_formatter(NullFormatter())  # where a panel holds less than a decade, they run into one another
+        axis.yaxis.set_minor_formatter(NullFormatter())
         axis.set_title(name, loc="left", fontsize=9)
         axis.set_ylim(top=min(100.0, axis.get_ylim()[1]))
     for axis in grid.flat[len(found) :]:
