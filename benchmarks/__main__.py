@@ -14,6 +14,7 @@ BENCHMARKS = {
     "trade": "what mooring trade says of error and cost against the truth, on six scenes kept aside (half an hour)",
     "trades": "the trade of speed for accuracy on twelve moorings, beside MoorDyn's and CableDyn's best (half an hour)",
     "closed_forms": "statics and platform stiffness against closed forms",
+    "cold_statics": "what the statics of whole scenes take from a cold start, and what is left out of balance (a quarter of a minute)",
     "extremes": "the battery of extremes beside MoorDyn, and ten thousand random scenes (an hour or two)",
     "guard": "what the guard against blow-ups costs",
     "kernel_cost": "ns for one node and force evaluation, against a bare vector kernel",
